@@ -5,16 +5,12 @@
 
 use super::error::{FileError, SurfaceError};
 use super::file::{self, HeightMap};
-use super::formats::{self, Numbers};
+use super::formats::{self, Numbers, Opening};
 use super::matrix::{Map, Matrix, PASSED, Size};
 use super::prepare;
 use crate::backend::Share;
 use crate::backend::ranks::{RankError, Ranks, agree};
 use crate::scene::{Boundary, Edges, HeightFileScene};
-
-/// Points of the largest file that the first of several processes reads whole, 4096 x 4096: 128 MiB of heights, a few times as
-/// much while it is read, where a slab of a contact that needs several machines has gigabytes.
-pub(super) const MOST_WHOLE: usize = 1 << 24;
 
 /// The error of the first file of a scene that several processes refuse, as far as headers and lengths tell.
 #[cfg(feature = "cli")]
@@ -22,9 +18,15 @@ pub(crate) fn refused_on_ranks(scene: &crate::scene::Scene) -> Option<SurfaceErr
     use super::{PartError, part_error};
     use crate::scene::{AdhesionMap, SurfacePart};
 
-    let refused = |file: &HeightFileScene| match formats::open_map(&file.path, MOST_WHOLE) {
-        Err(error @ FileError::Whole { .. }) => Some(error),
-        _ => None,
+    let refused = |file: &HeightFileScene| {
+        // A text that is read by rows need not be read to its end.
+        if is_by_rows(file) {
+            return None;
+        }
+        match formats::open_map(&file.path, Opening::ByRows) {
+            Err(error @ FileError::Whole { .. }) => Some(error),
+            _ => None,
+        }
     };
     let of_part = |(index, part): (usize, &SurfacePart)| {
         let SurfacePart::File(file) = part else {
@@ -53,21 +55,21 @@ pub(crate) fn refused_on_ranks(scene: &crate::scene::Scene) -> Option<SurfaceErr
 /// Whether no process holds the whole of a file.
 pub(crate) fn is_by_rows(scene: &HeightFileScene) -> bool {
     // A format that would hold a single point refuses.
-    formats::open_map(&scene.path, 0).is_ok_and(|map| matches!(map.values, Numbers::Rows(_)))
+    formats::open_map(&scene.path, Opening::Glance)
+        .is_ok_and(|map| matches!(map.values, Numbers::Rows(_)))
 }
 
-/// Points of the map of a file that several processes resample, as it is before.
+/// Points of the map of a file that several processes resample, as it is before; of a text about so many rows.
 pub(crate) fn points_before_resampling(scene: &HeightFileScene) -> Option<[usize; 2]> {
     let asked = &scene.preparation;
     asked.resample?;
-    let map = formats::open_map(&scene.path, 0).ok()?;
+    let map = formats::open_map(&scene.path, Opening::Glance).ok()?;
     let mut points = match asked.profile {
         true => [map.columns.max(map.rows), 1],
         false => [map.columns, map.rows],
     };
     if let Some(crop) = asked.crop {
-        prepare::check_crop(crop, points).ok()?;
-        points = [crop[2], crop[3]];
+        points = [points[0].min(crop[2]), points[1].min(crop[3])];
     }
     Some(match asked.edges {
         Edges::Mirror => prepare::mirrored(points),
@@ -118,7 +120,7 @@ impl Reading<'_> {
             None => (self.whole)().map_err(self.wrong)?,
             Some(ranks) => {
                 let opened = self.of_first(ranks, || {
-                    let map = formats::open_map(&self.scene.path, MOST_WHOLE)?;
+                    let map = formats::open_map(&self.scene.path, Opening::ByRows)?;
                     if self.scene.preparation.profile {
                         return Ok(prepare::to_profile(map)?.into());
                     }

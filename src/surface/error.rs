@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::by_rows::MOST_WHOLE;
+use super::matrix::MOST_WHOLE;
 use super::{MOST_POINTS, MapError};
 use crate::units::{cut, quoted};
 

@@ -1,6 +1,7 @@
 //! Reads a height file and applies the scene's fill, unit, scale and detrending.
 
 use super::error::FileError;
+use super::formats::Opening;
 use super::matrix::{Matrix, Size};
 use super::statistics::edge_jumps;
 use super::{MOST_POINTS, detrend, fill, formats, prepare, resample};
@@ -101,7 +102,7 @@ pub(super) fn read(
     boundary: Boundary,
     points: Option<[usize; 2]>,
 ) -> Result<HeightMap, FileError> {
-    let map = formats::open_map(&scene.path, usize::MAX)?;
+    let map = formats::open_map(&scene.path, Opening::Whole)?;
     let matrix = if scene.preparation.profile {
         prepare::to_profile(map)?
     } else {
@@ -136,7 +137,7 @@ pub(super) fn read_numbers(
     scene: &HeightFileScene,
     boundary: Boundary,
 ) -> Result<HeightMap, FileError> {
-    let matrix = formats::open_map(&scene.path, usize::MAX)?.read()?;
+    let matrix = formats::open_map(&scene.path, Opening::Whole)?.read()?;
     whole_heights_of(scene, boundary, matrix)
 }
 

@@ -7,11 +7,23 @@ use std::rc::Rc;
 use super::numbers::{Numbers, RawRows};
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
+use crate::surface::matrix::MOST_WHOLE;
 
 /// What a file is read from.
 pub(super) trait Source: Read + Seek {}
 
 impl<S: Read + Seek> Source for S {}
+
+/// What a map is opened for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::surface) enum Opening {
+    /// To be read by one process, which may hold all of it.
+    Whole,
+    /// To be read some rows at a time; of a format that gives its numbers only together [`MOST_WHOLE`] points may be held.
+    ByRows,
+    /// To see whether it is read by rows, and of how many points: none is held, and of a text the beginning tells.
+    Glance,
+}
 
 /// Bytes that a text may take for each point of the most that are held: a longer one has more points, or says in its
 /// header how many.
@@ -19,6 +31,9 @@ const LONGEST_NUMBER: u64 = 32;
 
 /// Bytes in which the end of a text is looked for.
 const PIECE: usize = 256;
+
+/// Bytes of a text that are read at once.
+const STREAMED: usize = 1 << 16;
 
 /// The bytes of one file of a named format and the read position. A clone reads the same file from a position of its own.
 #[derive(Clone)]
@@ -28,8 +43,7 @@ pub(super) struct Bytes {
     source: Rc<RefCell<dyn Source>>,
     length: usize,
     at: usize,
-    /// Points of the largest map that may be held whole.
-    most: usize,
+    opening: Opening,
 }
 
 /// Reads a number of fixed width.
@@ -45,21 +59,21 @@ macro_rules! numbers {
 }
 
 impl Bytes {
-    /// The first `length` bytes of a file of which no more than `most` points may be held at once.
-    pub(super) fn new(source: impl Source + 'static, length: usize, most: usize) -> Self {
+    /// The first `length` bytes of a file.
+    pub(super) fn new(source: impl Source + 'static, length: usize, opening: Opening) -> Self {
         Bytes {
             format: "",
             source: Rc::new(RefCell::new(source)),
             length,
             at: 0,
-            most,
+            opening,
         }
     }
 
     /// Bytes in memory, of which all may be held.
     pub(super) fn held(bytes: Vec<u8>) -> Self {
         let length = bytes.len();
-        Bytes::new(Cursor::new(bytes), length, usize::MAX)
+        Bytes::new(Cursor::new(bytes), length, Opening::Whole)
     }
 
     /// The same bytes as those of a format, by its name in messages.
@@ -87,6 +101,26 @@ impl Bytes {
         self.at
     }
 
+    /// What it is opened for.
+    pub(super) fn opening(&self) -> Opening {
+        self.opening
+    }
+
+    /// Points of the largest map that may be held whole.
+    fn most(&self) -> usize {
+        match self.opening {
+            Opening::Whole => usize::MAX,
+            Opening::ByRows => MOST_WHOLE,
+            Opening::Glance => 0,
+        }
+    }
+
+    /// The first bytes of the file, of at most `length`.
+    pub(super) fn shortened(self, length: usize) -> Self {
+        let length = self.length.min(length);
+        Bytes { length, ..self }
+    }
+
     /// The file as a stream.
     pub(super) fn stream(&self) -> BufReader<Stream> {
         BufReader::new(Stream(Bytes {
@@ -95,8 +129,12 @@ impl Bytes {
         }))
     }
 
+    /// The unread bytes as a stream that is read to its end.
+    pub(super) fn rest(&self) -> BufReader<Stream> {
+        BufReader::with_capacity(STREAMED, Stream(self.clone()))
+    }
+
     /// Length of the file.
-    #[cfg(feature = "images")]
     pub(super) fn length(&self) -> usize {
         self.length
     }
@@ -177,7 +215,7 @@ impl Bytes {
 
     /// Refuses to hold so many bytes of numbers at once, if that is more than the largest map takes.
     pub(super) fn expect_held_bytes(&self, length: u64) -> Result<(), FileError> {
-        if length > LONGEST_NUMBER.saturating_mul(self.most as u64) {
+        if length > LONGEST_NUMBER.saturating_mul(self.most() as u64) {
             return Err(FileError::Whole {
                 points: None,
                 length,
@@ -186,9 +224,17 @@ impl Bytes {
         Ok(())
     }
 
+    /// Bytes of the longest line of a text, of which one is held.
+    pub(super) fn longest_line(&self) -> u64 {
+        match self.opening {
+            Opening::Whole => u64::MAX,
+            Opening::ByRows | Opening::Glance => LONGEST_NUMBER * MOST_WHOLE as u64,
+        }
+    }
+
     /// Refuses a map that is held whole and has more points than that.
     pub(super) fn expect_held(&self, [rows, columns]: [usize; 2]) -> Result<(), FileError> {
-        if rows.saturating_mul(columns) > self.most {
+        if rows.saturating_mul(columns) > self.most() {
             return Err(FileError::Whole {
                 points: Some([columns, rows]),
                 length: 0,

@@ -10,6 +10,7 @@ mod gwy;
 mod ibw;
 pub(crate) mod instrument_header;
 mod length;
+mod lines;
 mod metropro;
 mod nanoscope;
 mod nid;
@@ -19,6 +20,7 @@ mod opd;
 mod plu;
 #[cfg(feature = "images")]
 mod png;
+mod remarks;
 mod sdf;
 mod sur;
 mod surfer;
@@ -39,6 +41,7 @@ use std::path::Path;
 use super::error::FileError;
 use super::matrix::Map;
 use bytes::Bytes;
+pub(super) use bytes::Opening;
 pub(super) use numbers::Numbers;
 #[cfg(not(feature = "images"))]
 use without_images::{png, tiff, x3p};
@@ -46,7 +49,7 @@ use without_images::{png, tiff, x3p};
 /// Longest file of most formats, 16 GiB: the largest grid in doubles, twice.
 const LONGEST: u64 = 1 << 34;
 
-/// Longest text file read, 4 GiB: its numbers need twice that memory in addition.
+/// Longest text file read, 4 GiB: its numbers need up to four times that memory.
 const LONGEST_TEXT: u64 = 1 << 32;
 
 /// A format of height files.
@@ -223,12 +226,11 @@ fn open(path: &Path) -> Result<(BufReader<File>, &'static Format, u64), FileErro
     Ok((file, format, length))
 }
 
-/// What a file says of its map, whose numbers are still to be read; of formats that give them only together at most `most`
-/// points are held.
+/// What a file says of its map, whose numbers are still to be read.
 ///
 /// # Errors
 /// See [`FileError`].
-pub(super) fn open_map(path: &Path, most: usize) -> Result<Map, FileError> {
+pub(super) fn open_map(path: &Path, opening: Opening) -> Result<Map, FileError> {
     let (file, format, length) = open(path)?;
     if length == 0 {
         return Err(FileError::Empty);
@@ -238,7 +240,7 @@ pub(super) fn open_map(path: &Path, most: usize) -> Result<Map, FileError> {
     }
     // If the file grows while it is read, the extra bytes are ignored.
     let length = usize::try_from(length).map_err(|_| FileError::TooLong { bytes: length })?;
-    (format.read)(Bytes::new(file, length, most))
+    (format.read)(Bytes::new(file, length, opening))
 }
 
 /// The format of a file that begins with `start`; its extension must agree.
@@ -286,7 +288,7 @@ mod tests {
     use proptest::prelude::*;
 
     /// A file of another program for each format, but for arrays.
-    const GOOD: [&[u8]; 22] = [
+    const GOOD: [&[u8]; 23] = [
         include_bytes!("../../../tests/files/pillow_16.png"),
         include_bytes!("../../../tests/files/tifffile_16.tif"),
         include_bytes!("../../../tests/files/tifffile_deflate.tif"),
@@ -307,12 +309,13 @@ mod tests {
         include_bytes!("../../../tests/files/zygo.dat"),
         include_bytes!("../../../tests/files/wyko.opd"),
         include_bytes!("../../../tests/files/mountains.x3p"),
+        include_bytes!("../../../tests/files/gwyddion.txt"),
         include_bytes!("../../../tests/files/gdal.xyz"),
         include_bytes!("../../../tests/files/sensofar.plu"),
     ];
 
     /// Extensions of those that no first bytes tell.
-    const NAMED: [&str; 2] = ["xyz", "plu"];
+    const NAMED: [&str; 3] = ["txt", "xyz", "plu"];
 
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
@@ -341,27 +344,32 @@ mod tests {
         }
     }
 
-    /// Of every file rows that are read some at a time are those of the whole, and of all but texts no number is held before.
+    /// Of every file rows that are read some at a time are those of the whole, and of all but points in any order and texts with
+    /// a header no number is held before.
     #[test]
     fn rows_are_those_of_the_whole() {
         for (which, bytes) in GOOD.iter().enumerate() {
             let told = GOOD.len() - NAMED.len();
             let extension = which.checked_sub(told).map(|index| NAMED[index]);
             let format = find(bytes, extension).unwrap();
-            let all = (format.read)(Bytes::held(bytes.to_vec())).and_then(Map::read);
+            let open = |opening| {
+                let source = std::io::Cursor::new(bytes.to_vec());
+                (format.read)(Bytes::new(source, bytes.len(), opening))
+            };
+            let all = open(Opening::Whole).and_then(Map::read);
             // A build without images reads none.
             if cfg!(not(feature = "images")) && matches!(all, Err(FileError::NotSupported { .. })) {
                 continue;
             }
             let all = all.unwrap();
-            let map = (format.read)(Bytes::held(bytes.to_vec())).unwrap();
-            let is_text = extension == Some("xyz")
+            let map = open(Opening::ByRows).unwrap();
+            let is_held = extension == Some("xyz")
                 || bytes.starts_with(surfer::TEXT)
                 || bytes.starts_with(b"aBCR-")
                 || bytes.starts_with(b"aISO-");
             assert_eq!(
                 matches!(map.values, Numbers::Held(_)),
-                is_text,
+                is_held,
                 "{}",
                 format.name
             );
@@ -374,9 +382,9 @@ mod tests {
             }
             // Of packed images a strip may be all.
             if format.name != "TIFF image" {
-                let source = std::io::Cursor::new(bytes.to_vec());
-                let opened = (format.read)(Bytes::new(source, bytes.len(), 0));
-                assert_eq!(opened.is_err(), is_text, "{}", format.name);
+                let seen = open(Opening::Glance).map(|map| [map.rows, map.columns]);
+                let shape = (!is_held).then_some([all.rows, all.columns]);
+                assert_eq!(seen.ok(), shape, "{}", format.name);
             }
         }
     }

@@ -5,13 +5,23 @@
 //! first line of words is a header, blank lines are skipped. Empty fields and `nan`, `na`, `n/a`
 //! are missing pixels.
 
-use super::bytes::Bytes;
-use super::length::length_unit;
+use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
+use std::ops::Range;
+
+use super::bytes::{Bytes, Opening};
+use super::lines::Lines;
+use super::numbers::{NumberRows, Numbers};
+use super::remarks::Remarks;
 use super::xyz;
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
-use crate::units::{Dimension, parse_quantity};
+
+/// Bytes that tell the rows of a text at a glance.
+const BEGINNING: usize = 1 << 20;
+
+/// What some programs begin a text in UTF-8 with.
+const MARK: &[u8] = b"\xEF\xBB\xBF";
 
 /// Separator of the numbers in a line.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,125 +47,287 @@ struct Line<'a> {
 ///
 /// # Errors
 /// Binary content, a field that is not a number, or rows of different length, with line, row and
-/// column from 1.
+/// column from 1. All are found before the first row is given.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
-    let map = read_map(&file.all()?)?;
-    file.expect_held([map.rows, map.columns])?;
-    Ok(map.into())
+    let length = file.length();
+    let keeps = file.opening() == Opening::Whole;
+    let file = match file.opening() {
+        Opening::Glance => beginning(file)?,
+        _ => file,
+    };
+    let text = Text::new(&file)?;
+    let mut matrix = text.matrix(keeps)?;
+    // Of a beginning as many more as the file is longer.
+    matrix.rows = (matrix.rows as u128 * length as u128 / file.length() as u128) as usize;
+    // A size in the comments means that this is a matrix of heights.
+    if matrix.size.is_none() && xyz::may_be_grid(&matrix) {
+        file.expect_held_bytes(length as u64)?;
+        let kept;
+        let points = if keeps {
+            &matrix
+        } else {
+            // A map has at least a point for each.
+            file.expect_held([matrix.rows, 1])?;
+            kept = text.matrix(true)?;
+            &kept
+        };
+        if let Some(map) = xyz::as_grid(points, text.remarks.lateral_unit) {
+            file.expect_held([map.rows, map.columns])?;
+            return Ok(map.into());
+        }
+    }
+    if keeps {
+        return Ok(matrix.into());
+    }
+    let header = matrix.split().1;
+    let rows = TextRows {
+        lines: text.lines(),
+        text,
+        columns: header.columns,
+        given: 0,
+    };
+    Ok(header.with(Numbers::Rows(Box::new(rows))))
 }
 
-fn read_map(bytes: &[u8]) -> Result<Matrix, FileError> {
-    let (matrix, remarks) = read_columns(bytes)?;
-    // A size in the comments means that this is a matrix of heights.
-    if matrix.size.is_none()
-        && let Some(map) = xyz::as_grid(&matrix, remarks.lateral_unit)
-    {
-        return Ok(map);
+/// The file up to the line in which its beginning ends.
+fn beginning(file: Bytes) -> Result<Bytes, FileError> {
+    let mut stream = file.stream();
+    let sought = SeekFrom::Start(BEGINNING as u64);
+    stream.seek(sought).map_err(FileError::Read)?;
+    let mut length = BEGINNING;
+    loop {
+        let piece = stream.fill_buf().map_err(FileError::Read)?;
+        let end = piece.iter().position(|byte| matches!(byte, b'\n' | b'\r'));
+        if end.is_some() || piece.is_empty() {
+            return Ok(file.shortened(length + end.map_or(0, |end| end + 1)));
+        }
+        let count = piece.len();
+        length += count;
+        stream.consume(count);
     }
-    Ok(matrix)
 }
 
 /// Reads the numbers of a text file line by line, and the entries of its comments.
 ///
 /// # Errors
-/// As [`read`].
-pub(super) fn read_columns(bytes: &[u8]) -> Result<(Matrix, Remarks), FileError> {
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    if bytes.starts_with(b"\xFF\xFE") || bytes.starts_with(b"\xFE\xFF") {
-        return Err(FileError::Utf16);
-    }
-    if let Some(offset) = bytes.iter().position(|byte| *byte == 0) {
-        return Err(FileError::Binary { offset });
-    }
-    // Comments may use another encoding (a Latin-1 micro sign); numbers cannot.
-    let text = String::from_utf8_lossy(bytes);
-    let body = Body::new(&text);
-    let separator = separator(&body);
-    let margins = margins(&body, separator);
-    let count_fields =
-        |line: &Line| fields(line.text, separator).count() - margins.before - margins.after;
-
-    let (mut rows, mut columns) = (0, 0);
-    let mut values = Vec::new();
-    for line in body.lines() {
-        rows += 1;
-        let found = count_fields(&line);
-        if rows == 1 {
-            columns = found;
-        }
-        if found != columns {
-            return Err(FileError::Ragged {
-                line: line.number,
-                row: rows,
-                found,
-                expected: columns,
-            });
-        }
-        if values.len() + columns > MOST_POINTS {
-            return Err(FileError::TooManyPoints {
-                points: (values.len() + columns) as u64,
-            });
-        }
-        let fields = fields(line.text, separator)
-            .skip(margins.before)
-            .take(columns);
-        for (column, field) in fields.enumerate() {
-            let value = number(field, separator).ok_or_else(|| FileError::NotANumber {
-                line: line.number,
-                row: rows,
-                column: column + 1,
-                text: field.trim().chars().take(40).collect(),
-            })?;
-            values.push(value);
-        }
-    }
-    if values.is_empty() {
-        return Err(FileError::NoNumbers);
-    }
-    let remarks = Remarks::from_body(&body);
-    let size = remarks.width.zip(remarks.height);
-    let matrix = Matrix {
-        size: size.map(|(x, y)| Size::Metres([x, y])),
-        unit: remarks.unit,
-        ..Matrix::new(values, [rows, columns])
-    };
-    Ok((matrix, remarks))
+/// As [`read`], and more bytes than may be held.
+pub(super) fn read_columns(file: &Bytes) -> Result<(Matrix, Remarks), FileError> {
+    file.expect_held_bytes(file.length() as u64)?;
+    let text = Text::new(file)?;
+    Ok((text.matrix(true)?, text.remarks))
 }
 
-/// The text of a file, line by line. Each pass finds the lines again, so that they need no memory.
-struct Body<'a> {
-    text: &'a str,
-    line_end: char,
+/// A text of numbers. Each pass reads its lines again, so that they need no memory.
+struct Text {
+    /// From the first line on.
+    file: Bytes,
+    line_end: u8,
+    /// Number of the header line; 0 for none.
+    header: usize,
+    separator: Separator,
+    margins: Margins,
+    remarks: Remarks,
+}
+
+impl Text {
+    /// How the numbers of a file are written, and the entries of its comments.
+    fn new(file: &Bytes) -> Result<Self, FileError> {
+        let mut file = file.clone();
+        let start = file.beginning(MARK.len() + 2)?;
+        let marked = start.strip_prefix(MARK);
+        if marked.is_some() {
+            file.skip(MARK.len(), "the file")?;
+        }
+        let start = marked.unwrap_or(&start);
+        if start.starts_with(b"\xFF\xFE") || start.starts_with(b"\xFE\xFF") {
+            return Err(FileError::Utf16);
+        }
+        let mut text = Text {
+            line_end: line_end(&file)?,
+            file,
+            header: 0,
+            separator: Separator::Blanks,
+            margins: Margins::default(),
+            remarks: Remarks::default(),
+        };
+        text.survey()?;
+        text.margins = margins(&text)?;
+        Ok(text)
+    }
+
+    /// Finds the separator, the header and what the comments say.
+    fn survey(&mut self) -> Result<(), FileError> {
+        let mut marks = Marks::default();
+        let mut is_first = true;
+        let mut lines = Lines::new(&self.file, self.line_end);
+        while lines.advance()? {
+            let line = lines.line();
+            self.remarks.take_comment(split_comment(line).1);
+            let content = &line[content(line)];
+            if content.trim().is_empty() {
+                continue;
+            }
+            if is_first && is_words(content) {
+                self.header = lines.number();
+            } else {
+                marks.take(content);
+            }
+            is_first = false;
+        }
+        self.separator = marks.separator();
+        Ok(())
+    }
+
+    /// The lines with content other than comments.
+    fn lines(&self) -> NumberLines {
+        NumberLines {
+            lines: Lines::new(&self.file, self.line_end),
+            header: self.header,
+        }
+    }
+
+    /// Checks every number, and keeps them if so asked.
+    fn matrix(&self, keeps: bool) -> Result<Matrix, FileError> {
+        let (mut rows, mut columns) = (0_usize, 0);
+        let mut values = Vec::new();
+        let mut lines = self.lines();
+        while let Some(line) = lines.next()? {
+            rows += 1;
+            let margins = self.margins.before + self.margins.after;
+            // Another program may have changed the file since they were found.
+            let found = fields(line.text, self.separator).count();
+            let found = found.saturating_sub(margins);
+            if rows == 1 {
+                columns = found;
+            }
+            if found != columns {
+                return Err(FileError::Ragged {
+                    line: line.number,
+                    row: rows,
+                    found,
+                    expected: columns,
+                });
+            }
+            let points = rows.saturating_mul(columns);
+            if points > MOST_POINTS {
+                return Err(FileError::TooManyPoints {
+                    points: points as u64,
+                });
+            }
+            for value in self.numbers(&line, rows, columns) {
+                let value = value?;
+                if keeps {
+                    values.push(value);
+                }
+            }
+        }
+        if rows * columns == 0 {
+            return Err(FileError::NoNumbers);
+        }
+        Ok(Matrix {
+            size: self.remarks.size().map(Size::Metres),
+            unit: self.remarks.unit,
+            ..Matrix::new(values, [rows, columns])
+        })
+    }
+
+    /// The numbers of a line, which is that of a row, at most so many.
+    fn numbers<'a>(
+        &self,
+        line: &'a Line,
+        row: usize,
+        columns: usize,
+    ) -> impl Iterator<Item = Result<f64, FileError>> + use<'a> {
+        let separator = self.separator;
+        let fields = fields(line.text, separator)
+            .skip(self.margins.before)
+            .take(columns);
+        fields.enumerate().map(move |(column, field)| {
+            number(field, separator).ok_or_else(|| FileError::NotANumber {
+                line: line.number,
+                row,
+                column: column + 1,
+                text: field.trim().chars().take(40).collect(),
+            })
+        })
+    }
+}
+
+/// How the lines of a text end; it has no zero byte.
+fn line_end(file: &Bytes) -> Result<u8, FileError> {
+    let mut stream = file.rest();
+    let mut end = b'\r';
+    let mut offset = 0;
+    loop {
+        let piece = stream.fill_buf().map_err(FileError::Read)?;
+        if piece.is_empty() {
+            return Ok(end);
+        }
+        // Faster than to look for the place of a byte that is not there.
+        if piece.contains(&0) {
+            offset += piece.iter().take_while(|byte| **byte != 0).count();
+            return Err(FileError::Binary { offset });
+        }
+        if piece.contains(&b'\n') {
+            end = b'\n';
+        }
+        let count = piece.len();
+        offset += count;
+        stream.consume(count);
+    }
+}
+
+/// The lines of a text that hold numbers.
+struct NumberLines {
+    lines: Lines,
     /// Number of the header line; 0 for none.
     header: usize,
 }
 
-impl<'a> Body<'a> {
-    fn new(text: &'a str) -> Self {
-        let mut body = Body {
-            text,
-            line_end: if text.contains('\n') { '\n' } else { '\r' },
-            header: 0,
-        };
-        let first = body.lines().next();
-        if let Some(line) = first.filter(|line| is_words(line.text)) {
-            body.header = line.number;
+impl NumberLines {
+    fn next(&mut self) -> Result<Option<Line<'_>>, FileError> {
+        while self.lines.advance()? {
+            let (number, line) = (self.lines.number(), self.lines.line());
+            let content = content(line);
+            if number != self.header && !line[content.clone()].trim().is_empty() {
+                let text = &self.lines.line()[content];
+                return Ok(Some(Line { number, text }));
+            }
         }
-        body
+        Ok(None)
     }
+}
 
-    /// The lines with content other than comments.
-    fn lines(&self) -> impl Iterator<Item = Line<'a>> {
-        let header = self.header;
-        let lines = self.text.split(self.line_end).enumerate();
-        lines.filter_map(move |(index, line)| {
-            let number = index + 1;
-            // Tabs stay: they may separate missing numbers.
-            let text = split_comment(line).0.trim_matches([' ', '\r', '\u{c}']);
-            let holds_numbers = number != header && !text.trim().is_empty();
-            holds_numbers.then_some(Line { number, text })
-        })
+/// Rows of a text whose numbers have been checked.
+struct TextRows {
+    text: Text,
+    lines: NumberLines,
+    columns: usize,
+    /// Rows given so far.
+    given: usize,
+}
+
+impl NumberRows for TextRows {
+    fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        // Another program may have cut the file since.
+        let cut = || FileError::Read(ErrorKind::UnexpectedEof.into());
+        for row in values.chunks_exact_mut(self.columns) {
+            self.given += 1;
+            let line = self.lines.next()?.ok_or_else(cut)?;
+            let mut numbers = self.text.numbers(&line, self.given, self.columns);
+            for value in row {
+                *value = numbers.next().ok_or_else(cut)??;
+            }
+        }
+        Ok(())
     }
+}
+
+/// Where the content of a line is. Tabs stay: they may separate missing numbers.
+fn content(line: &str) -> Range<usize> {
+    let blanks = [' ', '\r', '\u{c}'];
+    let text = split_comment(line).0.trim_end_matches(blanks);
+    text.len() - text.trim_start_matches(blanks).len()..text.len()
 }
 
 /// A line's content and its comment.
@@ -174,28 +346,54 @@ fn is_words(line: &str) -> bool {
         .all(|word| number(word, Separator::Blanks).is_none())
 }
 
-/// The separator of the file: the first of semicolon, comma, tab, blanks that it uses.
-fn separator(body: &Body) -> Separator {
-    let (mut semicolons, mut commas, mut tabs, mut blanks) = (false, false, false, false);
-    let (mut several, mut decimal_commas) = (false, true);
-    for line in body.lines() {
-        let comma = line.text.contains(',');
-        semicolons |= line.text.contains(';');
-        commas |= comma;
-        tabs |= line.text.contains('\t');
-        blanks |= line.text.contains(' ');
-        several |= line.text.split_whitespace().nth(1).is_some();
-        decimal_commas &= !comma || line.text.split_whitespace().all(has_decimal_comma);
+/// What separates words in the lines of a file.
+struct Marks {
+    semicolons: bool,
+    commas: bool,
+    tabs: bool,
+    blanks: bool,
+    /// Whether a line has several words.
+    several: bool,
+    /// Whether all commas are decimal marks.
+    decimal_commas: bool,
+}
+
+impl Default for Marks {
+    fn default() -> Self {
+        Marks {
+            semicolons: false,
+            commas: false,
+            tabs: false,
+            blanks: false,
+            several: false,
+            decimal_commas: true,
+        }
     }
-    if semicolons {
-        Separator::Semicolon
-    } else if commas && !(several && decimal_commas) {
-        // A single `1,5` on each line is taken as two numbers.
-        Separator::Comma
-    } else if tabs && !blanks {
-        Separator::Tab
-    } else {
-        Separator::Blanks
+}
+
+impl Marks {
+    fn take(&mut self, line: &str) {
+        let comma = line.contains(',');
+        self.semicolons |= line.contains(';');
+        self.commas |= comma;
+        self.tabs |= line.contains('\t');
+        self.blanks |= line.contains(' ');
+        self.several |= line.split_whitespace().nth(1).is_some();
+        self.decimal_commas &= !comma || line.split_whitespace().all(has_decimal_comma);
+    }
+
+    /// The separator of the file: the first of semicolon, comma, tab, blanks that it uses.
+    fn separator(&self) -> Separator {
+        if self.semicolons {
+            Separator::Semicolon
+        } else if self.commas && !(self.several && self.decimal_commas) {
+            // A single `1,5` on each line is taken as two numbers.
+            Separator::Comma
+        } else if self.tabs && !self.blanks {
+            Separator::Tab
+        } else {
+            Separator::Blanks
+        }
     }
 }
 
@@ -220,16 +418,19 @@ fn fields(text: &str, separator: Separator) -> Box<dyn Iterator<Item = &str> + '
 }
 
 /// Empty fields at the ends of every line: trailing separators, not missing pixels.
+#[derive(Clone, Copy, Default)]
 struct Margins {
     before: usize,
     after: usize,
 }
 
 /// Finds the separators that every line begins or ends with.
-fn margins(body: &Body, separator: Separator) -> Margins {
+fn margins(text: &Text) -> Result<Margins, FileError> {
+    let separator = text.separator;
     let empty = |field: Option<&str>| field.is_some_and(|field| field.trim().is_empty());
     let (mut before, mut after, mut fewest) = (true, true, usize::MAX);
-    for line in body.lines() {
+    let mut lines = text.lines();
+    while let Some(line) = lines.next()? {
         before &= empty(fields(line.text, separator).next());
         after &= empty(fields(line.text, separator).last());
         fewest = fewest.min(fields(line.text, separator).count());
@@ -239,10 +440,10 @@ fn margins(body: &Body, separator: Separator) -> Margins {
     }
     // Every line keeps at least one field.
     let after = after && fewest > 1;
-    Margins {
+    Ok(Margins {
         before: usize::from(before && fewest > 1 + usize::from(after)),
         after: usize::from(after),
-    }
+    })
 }
 
 /// The number in a field; NaN if it is missing, `None` if it is not a number.
@@ -272,84 +473,6 @@ fn number(field: &str, separator: Separator) -> Option<f64> {
         other = other.replacen(',', ".", 1);
     }
     other.parse().ok()
-}
-
-/// Name and value of a comment.
-fn entry(comment: &str) -> Option<(&str, &str)> {
-    comment
-        .trim_start_matches(['#', '%', '/', ' '])
-        .split_once(':')
-}
-
-/// Lengths stated in the comments, in the form of Gwyddion's text export.
-#[derive(Clone, Copy, Default)]
-pub(super) struct Remarks {
-    width: Option<f64>,
-    height: Option<f64>,
-    unit: Option<f64>,
-    /// Metres per unit of x and y of points with coordinates.
-    pub(super) lateral_unit: Option<f64>,
-}
-
-impl Remarks {
-    /// All comments of a file.
-    fn from_body(body: &Body) -> Self {
-        let mut remarks = Remarks::default();
-        // The values of the last three comments of the form `name: value`.
-        let mut last = [""; 3];
-        for line in body.text.split(body.line_end) {
-            let Some((name, value)) = entry(split_comment(line).1) else {
-                continue;
-            };
-            remarks.take(name, value);
-            last = [last[1], last[2], value];
-            remarks.take_by_order(last);
-        }
-        remarks
-    }
-
-    /// Gwyddion writes width, height and unit in this order, with names in the language of its user.
-    fn take_by_order(&mut self, [width, height, unit]: [&str; 3]) {
-        if let (None, None, Some(width), Some(height)) =
-            (self.width, self.height, length(width), length(height))
-            && let Some(unit) = length_unit(unit)
-        {
-            *self = Remarks {
-                width: Some(width),
-                height: Some(height),
-                unit: Some(unit),
-                ..*self
-            };
-        }
-    }
-
-    /// Reads `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um`.
-    fn take(&mut self, name: &str, value: &str) {
-        match name.trim().to_ascii_lowercase().as_str() {
-            "width" => self.width = length(value),
-            "height" => self.height = length(value),
-            "value units" => self.unit = length_unit(value),
-            "lateral units" => self.lateral_unit = length_unit(value),
-            _ => {}
-        }
-    }
-}
-
-/// A positive length with its unit, m.
-fn length(text: &str) -> Option<f64> {
-    let text = text
-        .trim()
-        .replacen(',', ".", usize::from(!text.contains('.')));
-    let text = text.as_str();
-    // For supported units this is the double nearest to the digits.
-    if let Ok(length) = parse_quantity(text, Dimension::Length) {
-        return (length > 0.0).then_some(length);
-    }
-    let end = text.find(|c: char| !(c.is_ascii_digit() || "+-.eE ".contains(c)))?;
-    let (number, name) = text.split_at(end);
-    let value: f64 = number.trim().parse().ok()?;
-    let metres = value * length_unit(name)?;
-    (metres.is_finite() && metres > 0.0).then_some(metres)
 }
 
 #[cfg(test)]

@@ -1,6 +1,39 @@
 //! Forms of a text matrix, and errors with their place.
 
+use std::io::Cursor;
+
 use super::*;
+
+/// The matrix of a text that is read whole; by rows the text has the same numbers, or is wrong in the same words.
+fn read_map(bytes: &[u8]) -> Result<Matrix, FileError> {
+    let opened = |opening| {
+        read(Bytes::new(
+            Cursor::new(bytes.to_vec()),
+            bytes.len(),
+            opening,
+        ))
+    };
+    let whole = opened(Opening::Whole).and_then(Map::read);
+    let bits =
+        |values: &[f64]| -> Vec<u64> { values.iter().map(|value| value.to_bits()).collect() };
+    match (&whole, opened(Opening::ByRows)) {
+        (Ok(whole), Ok(map)) => {
+            let (numbers, header) = map.split();
+            let mut rows = numbers.into_rows();
+            let mut found = vec![0.0; whole.values.len()];
+            for part in found.chunks_mut(2 * whole.columns) {
+                rows.next(part).expect("rows that have been checked");
+            }
+            assert_eq!(
+                header.with(bits(&found)),
+                whole.clone().split().1.with(bits(&whole.values))
+            );
+        }
+        (Err(whole), Err(error)) => assert_eq!(whole.to_string(), error.to_string()),
+        (whole, map) => panic!("{whole:?}, by rows {:?}", map.map(|map| map.split().1)),
+    }
+    whole
+}
 
 fn numbers(text: &str) -> (usize, usize, Vec<f64>) {
     let matrix = read_map(text.as_bytes()).unwrap_or_else(|error| panic!("{text:?}: {error}"));
@@ -165,4 +198,46 @@ fn sizes_are_read_in_any_language() {
     let other = "# Kanal: Topo\n# Breite: 5 um\n# H\u{f6}he: 8 nm\n# Value units: V\n1 2\n3 4\n";
     let matrix = read_map(other.as_bytes()).unwrap();
     assert_eq!((matrix.size, matrix.unit), (None, None));
+}
+
+/// Of a long text the beginning tells how it is read, and about how many rows it has; three columns may be points.
+#[test]
+fn a_glance_sees_the_beginning() {
+    let glance = |text: &str| {
+        let bytes = text.as_bytes().to_vec();
+        read(Bytes::new(Cursor::new(bytes), text.len(), Opening::Glance))
+    };
+    let row = "1.25 -2.5e-3 3 4\n".repeat(2);
+    let long = row.repeat(70000);
+    assert!(long.len() > 2 * BEGINNING);
+    let map = glance(&long).unwrap();
+    assert!(matches!(map.values, Numbers::Rows(_)));
+    assert_eq!(map.columns, 4);
+    assert!(map.rows.abs_diff(140_000) < 140, "{}", map.rows);
+    // What is wrong behind the beginning is not seen, and found when the text is opened to be read.
+    let wrong = long.clone() + "1 2 3\n";
+    assert!(glance(&wrong).is_ok());
+    assert!(read_map(wrong.as_bytes()).is_err());
+    // A line that begins within the beginning is read to its end.
+    for end in ["", "\r\n", "\r"] {
+        let line = "7;".repeat(BEGINNING) + "8" + end;
+        let map = glance(&(line.clone() + &line)).unwrap();
+        let [rows, lines] = if end.is_empty() { [1, 2] } else { [2, 1] };
+        assert_eq!(
+            [map.rows, map.columns],
+            [rows, (BEGINNING + 1) * lines - (lines - 1)]
+        );
+    }
+    assert_eq!(glance("1 2\n3 4\n5 6").unwrap().rows, 3);
+    let points = "0 0 1\n1 0 2\n0 1 3\n1 1 4\n";
+    assert!(matches!(glance(points), Err(FileError::Whole { .. })));
+    // Three columns of heights are read by rows.
+    let heights = "0 0 1\n1 0 2\n0 7 3\n1 1 4\n";
+    let opened = read(Bytes::new(
+        Cursor::new(heights.as_bytes()),
+        heights.len(),
+        Opening::ByRows,
+    ));
+    assert!(matches!(opened.unwrap().values, Numbers::Rows(_)));
+    assert!(glance(&format!("# Width: 1 um\n# Height: 1 um\n{points}")).is_ok());
 }

@@ -20,7 +20,7 @@ const SPARSEST: usize = 2;
 
 /// Reads a file of points.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
-    let (columns, remarks) = text::read_columns(&file.all()?)?;
+    let (columns, remarks) = text::read_columns(&file)?;
     if columns.columns != 3 {
         return Err(FileError::NotAGrid {
             what: format!(
@@ -35,12 +35,14 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     Ok(map.into())
 }
 
+/// Whether a matrix has as many columns and rows as points that form a map.
+pub(super) fn may_be_grid(columns: &Matrix) -> bool {
+    columns.columns == 3 && columns.rows >= 4
+}
+
 /// The map that the points form if it has at least two points a side; `None` for three ordinary
 /// columns.
 pub(super) fn as_grid(columns: &Matrix, lateral_unit: Option<f64>) -> Option<Matrix> {
-    if columns.columns != 3 || columns.rows < 4 {
-        return None;
-    }
     gridded(columns, lateral_unit)
         .ok()
         .filter(|map| map.rows > 1 && map.columns > 1)
