@@ -202,6 +202,9 @@ fn height_files() {
     // Wrong in the last line, in two ways.
     fs::write(at("word.txt"), map.clone() + &line(0).replace("e-", "x")).expect("a file");
     fs::write(at("short.txt"), map.clone() + "1 2\n").expect("a file");
+    let grid = format!("DSAA\n24 39\n0 2\n0 3\n0 1\n{map}");
+    fs::write(at("map.grd"), grid.clone() + &line(5)).expect("a file");
+    fs::write(at("word.grd"), grid + &line(5).replace("e-", "x")).expect("a file");
     fs::write(
         at("holes.csv"),
         map.replacen("e-9 ", "e-9,,", 3).replace(' ', ","),
@@ -252,6 +255,8 @@ fn height_files() {
         ),
         (file("word.txt", "crop = [0, 0, 24, 38]\n"), ""),
         (file("short.txt", ""), ""),
+        (file("map.grd", "crop = [0, 1, 24, 38]\n"), ""),
+        (file("word.grd", "crop = [0, 0, 24, 38]\n"), ""),
         (file("holes.csv", "fill = \"interpolate\"\n"), ""),
         (file("holes.csv", ""), ""),
         (file("rows.npy", ""), "\"wrong.npy\""),

@@ -204,15 +204,6 @@ impl Bytes {
         file.take(count.min(self.length), "the file")
     }
 
-    /// All bytes of a format whose points are known only once it is read.
-    ///
-    /// # Errors
-    /// They are more than may be held at once.
-    pub(super) fn all(&self) -> Result<Vec<u8>, FileError> {
-        self.expect_held_bytes(self.length as u64)?;
-        self.beginning(self.length)
-    }
-
     /// Refuses to hold so many bytes of numbers at once, if that is more than the largest map takes.
     pub(super) fn expect_held_bytes(&self, length: u64) -> Result<(), FileError> {
         if length > LONGEST_NUMBER.saturating_mul(self.most() as u64) {

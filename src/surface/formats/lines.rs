@@ -2,7 +2,7 @@
 
 use std::io::{BufRead, BufReader, Read};
 
-use super::bytes::{Bytes, Stream};
+use super::bytes::{Bytes, Stream, latin_1};
 use crate::surface::error::FileError;
 
 /// The lines from a place of a file on.
@@ -12,18 +12,36 @@ pub(super) struct Lines {
     longest: u64,
     length: u64,
     end: u8,
+    decode: fn(Vec<u8>) -> String,
     number: usize,
     line: String,
 }
 
 impl Lines {
-    /// The unread lines of a file, each of which ends with `end`.
+    /// The unread lines of a file, each of which ends with `end`. Comments may use another encoding than UTF-8 (a Latin-1
+    /// micro sign); numbers cannot.
     pub fn new(file: &Bytes, end: u8) -> Self {
+        Lines::decoded(file, end, |bytes| {
+            String::from_utf8(bytes)
+                .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned())
+        })
+    }
+
+    /// The unread lines of a file in Latin-1.
+    pub fn latin_1(file: &Bytes) -> Self {
+        Lines::decoded(file, b'\n', |bytes| match bytes.is_ascii() {
+            true => String::from_utf8(bytes).unwrap_or_default(),
+            false => latin_1(&bytes),
+        })
+    }
+
+    fn decoded(file: &Bytes, end: u8, decode: fn(Vec<u8>) -> String) -> Self {
         Lines {
             stream: file.rest(),
             longest: file.longest_line(),
             length: file.length() as u64,
             end,
+            decode,
             number: 0,
             line: String::new(),
         }
@@ -48,14 +66,12 @@ impl Lines {
         if bytes.last() == Some(&self.end) {
             bytes.pop();
         }
-        // Comments may use another encoding (a Latin-1 micro sign); numbers cannot.
-        self.line = String::from_utf8(bytes)
-            .unwrap_or_else(|error| String::from_utf8_lossy(error.as_bytes()).into_owned());
-        self.number += 1;
+        self.line = (self.decode)(bytes);
+        self.number += usize::from(count > 0);
         Ok(count > 0)
     }
 
-    /// Number of the line, from 1.
+    /// Number of the line, from 1; 0 before the first.
     pub fn number(&self) -> usize {
         self.number
     }
@@ -63,6 +79,15 @@ impl Lines {
     /// The line without its end.
     pub fn line(&self) -> &str {
         &self.line
+    }
+}
+
+/// A mistake in a line of a text of a format, such as `.sdf`.
+pub(super) fn broken_line(format: &'static str, line: usize, what: impl Into<String>) -> FileError {
+    FileError::BrokenText {
+        format,
+        line,
+        what: what.into(),
     }
 }
 

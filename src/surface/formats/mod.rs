@@ -30,6 +30,7 @@ mod tiff;
 mod vk4;
 #[cfg(not(feature = "images"))]
 mod without_images;
+mod words;
 #[cfg(feature = "images")]
 mod x3p;
 mod xyz;
@@ -317,10 +318,15 @@ mod tests {
     /// Extensions of those that no first bytes tell.
     const NAMED: [&str; 3] = ["txt", "xyz", "plu"];
 
+    fn opened(format: &Format, bytes: &[u8], opening: Opening) -> Result<Map, FileError> {
+        let source = std::io::Cursor::new(bytes.to_vec());
+        (format.read)(Bytes::new(source, bytes.len(), opening))
+    }
+
     proptest! {
         #![proptest_config(ProptestConfig::with_cases(4000))]
 
-        /// Any changed or missing bytes give an error or a complete matrix.
+        /// Any changed or missing bytes give an error or a complete matrix, and by rows the same.
         #[test]
         fn modified_files_give_an_error_or_a_matrix(
             which in 0..GOOD.len(),
@@ -337,25 +343,32 @@ mod tests {
                 bytes[(place * reach as f64) as usize] = byte;
             }
             bytes.truncate((kept * bytes.len() as f64) as usize);
-            match (format.read)(Bytes::held(bytes)).and_then(Map::read) {
-                Ok(matrix) => prop_assert_eq!(matrix.values.len(), matrix.rows * matrix.columns),
-                Err(error) => prop_assert!(!error.to_string().contains('\n')),
+            let by_rows = opened(format, &bytes, Opening::ByRows).and_then(Map::read);
+            match (opened(format, &bytes, Opening::Whole).and_then(Map::read), by_rows) {
+                (Ok(matrix), Ok(by_rows)) => {
+                    prop_assert_eq!(matrix.values.len(), matrix.rows * matrix.columns);
+                    let same = |(a, b): (&f64, &f64)| a.to_bits() == b.to_bits();
+                    prop_assert!(matrix.values.iter().zip(&by_rows.values).all(same));
+                    prop_assert_eq!(matrix.split().1, by_rows.split().1);
+                }
+                (Err(error), Err(by_rows)) => {
+                    prop_assert!(!error.to_string().contains('\n'));
+                    prop_assert_eq!(error.to_string(), by_rows.to_string());
+                }
+                (_, by_rows) => prop_assert!(false, "by rows {:?}", by_rows.map(|map| map.rows)),
             }
         }
     }
 
-    /// Of every file rows that are read some at a time are those of the whole, and of all but points in any order and texts with
-    /// a header no number is held before.
+    /// Of every file rows that are read some at a time are those of the whole, and of all but points in any order no number is
+    /// held before.
     #[test]
     fn rows_are_those_of_the_whole() {
         for (which, bytes) in GOOD.iter().enumerate() {
             let told = GOOD.len() - NAMED.len();
             let extension = which.checked_sub(told).map(|index| NAMED[index]);
             let format = find(bytes, extension).unwrap();
-            let open = |opening| {
-                let source = std::io::Cursor::new(bytes.to_vec());
-                (format.read)(Bytes::new(source, bytes.len(), opening))
-            };
+            let open = |opening| opened(format, bytes, opening);
             let all = open(Opening::Whole).and_then(Map::read);
             // A build without images reads none.
             if cfg!(not(feature = "images")) && matches!(all, Err(FileError::NotSupported { .. })) {
@@ -363,10 +376,7 @@ mod tests {
             }
             let all = all.unwrap();
             let map = open(Opening::ByRows).unwrap();
-            let is_held = extension == Some("xyz")
-                || bytes.starts_with(surfer::TEXT)
-                || bytes.starts_with(b"aBCR-")
-                || bytes.starts_with(b"aISO-");
+            let is_held = extension == Some("xyz");
             assert_eq!(
                 matches!(map.values, Numbers::Held(_)),
                 is_held,

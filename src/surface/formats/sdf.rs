@@ -6,8 +6,9 @@
 //! # Source
 //! ISO 25178-71:2017, clause 5; its forerunner in Stout et al. 1993, report EUR 15178 EN.
 
-use super::bytes::{Bytes, checked_shape, latin_1, refuse_short_text, with_capacity};
-use super::numbers::Numbers;
+use super::bytes::{Bytes, checked_shape, refuse_short_text};
+use super::lines::{Lines, broken_line};
+use super::words::{WordRows, Words, checked};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
@@ -26,7 +27,7 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     if file.beginning(1)? == b"b" {
         read_binary(file)
     } else {
-        read_text(&file)
+        checked(&file, open_text)
     }
 }
 
@@ -60,7 +61,7 @@ impl Header {
         (!stands).then(|| format!("Xscale = {x}, Yscale = {y}, Zscale = {z} are not lengths"))
     }
 
-    fn matrix(&self, values: Numbers, [rows, columns]: [usize; 2]) -> Map {
+    fn matrix<V>(&self, values: V, [rows, columns]: [usize; 2]) -> Matrix<V> {
         let [x, y, z] = self.scales;
         let y = if rows == 1 { x } else { y };
         Matrix {
@@ -125,96 +126,80 @@ fn read_binary(file: Bytes) -> Result<Map, FileError> {
     Ok(header.matrix(values, shape))
 }
 
-fn read_text(file: &Bytes) -> Result<Map, FileError> {
-    let bytes = file.all()?;
-    let text = latin_1(&bytes);
-    let wrong = |line: usize, what: String| FileError::BrokenText {
-        format: FORMAT,
-        line,
-        what,
-    };
-    let mut lines = text.lines().zip(1..).skip(1);
-    let mut found: Vec<(String, f64)> = Vec::new();
+fn open_text(file: &Bytes) -> Result<Matrix<WordRows>, FileError> {
+    let mut lines = Lines::latin_1(file);
+    // Of entries with one name the first counts; the maker and the dates are not numbers and not needed.
+    let mut found = [None; NUMBERS.len()];
     let mut end = None;
-    for (line, number) in lines.by_ref() {
+    lines.advance()?;
+    while lines.advance()? {
+        let line = lines.line();
         if line.trim_start().starts_with('*') {
-            end = Some(number);
+            end = Some(lines.number());
             break;
         }
         let Some((name, value)) = line.split_once('=') else {
             continue;
         };
         let name = name.trim().to_ascii_lowercase();
-        // The maker and the dates are not numbers and not needed.
-        if let Ok(value) = value.trim().parse() {
-            found.push((name, value));
-        } else if NUMBERS
-            .iter()
-            .any(|known| known.eq_ignore_ascii_case(&name))
-        {
+        let known = |known: &&str| known.eq_ignore_ascii_case(&name);
+        let Some(place) = NUMBERS.iter().position(known) else {
+            continue;
+        };
+        let number = value.trim().parse().map_err(|_| {
             let value: String = value.trim().chars().take(40).collect();
-            return Err(wrong(number, format!("{name} = {value:?} is not a number")));
-        }
+            let what = format!("{name} = {value:?} is not a number");
+            broken_line(FORMAT, lines.number(), what)
+        })?;
+        found[place].get_or_insert(number);
     }
     let Some(end) = end else {
-        return Err(wrong(
-            1,
-            "no line with an asterisk ends the header".to_owned(),
-        ));
+        let what = "no line with an asterisk ends the header";
+        return Err(broken_line(FORMAT, 1, what));
+    };
+    let entry = |name: &str| -> Option<f64> {
+        let place = NUMBERS.iter().position(|known| *known == name);
+        found[place?]
     };
     let number = |name: &str| -> Result<f64, FileError> {
-        let entry = found
-            .iter()
-            .find(|(other, _)| other.eq_ignore_ascii_case(name));
-        let (_, value) = entry.ok_or_else(|| wrong(end, format!("its header has no {name}")))?;
-        Ok(*value)
+        let absent = || broken_line(FORMAT, end, format!("its header has no {name}"));
+        entry(name).ok_or_else(absent)
     };
     let header = Header {
         columns: number("NumPoints")? as i64,
         rows: number("NumProfiles")? as i64,
         scales: [number("Xscale")?, number("Yscale")?, number("Zscale")?],
-        compression: number("Compression").unwrap_or(0.0) as i64,
-        data_type: number("DataType").unwrap_or(7.0) as i64,
+        compression: entry("Compression").unwrap_or(0.0) as i64,
+        data_type: entry("DataType").unwrap_or(7.0) as i64,
     };
     if let Some(scale_error) = header.scale_error() {
-        return Err(wrong(end, scale_error));
+        return Err(broken_line(FORMAT, end, scale_error));
     }
     let shape = header.shape()?;
-    file.expect_held(shape)?;
-    let points = shape[0] * shape[1];
-    refuse_short_text(shape, bytes.len())?;
-    let mut values = with_capacity(shape)?;
-    let mut last = end;
-    'lines: for (line, number) in lines {
-        last = number;
-        for word in line.split_ascii_whitespace() {
-            if word.starts_with('*') || values.len() == points {
-                break 'lines;
-            }
-            let value = if word.eq_ignore_ascii_case(MISSING) {
-                Some(f64::NAN)
-            } else {
-                word.parse().ok()
-            };
-            values.push(value.ok_or_else(|| FileError::NotANumber {
-                line: number,
-                row: values.len() / shape[1] + 1,
-                column: values.len() % shape[1] + 1,
-                text: word.chars().take(40).collect(),
-            })?);
+    refuse_short_text(shape, file.length())?;
+    let heights = WordRows::new(Words::new(lines), shape, height);
+    Ok(header.matrix(heights, shape))
+}
+
+/// The next height of a text of such a shape, of which so many are read.
+fn height(words: &mut Words, given: usize, [rows, columns]: [usize; 2]) -> Result<f64, FileError> {
+    let (line, word) = match words.next()? {
+        Some((line, word)) if !word.starts_with('*') => (line, word),
+        _ => {
+            let (points, row) = (rows * columns, given / columns + 1);
+            let what = format!("the heights end after {given} of {points}, in row {row}");
+            return Err(broken_line(FORMAT, words.last_line(), what));
         }
+    };
+    if word.eq_ignore_ascii_case(MISSING) {
+        return Ok(f64::NAN);
     }
-    if values.len() < points {
-        return Err(wrong(
-            last,
-            format!(
-                "the heights end after {} of {points}, in row {}",
-                values.len(),
-                values.len() / shape[1] + 1
-            ),
-        ));
-    }
-    Ok(header.matrix(Numbers::Held(values), shape))
+    word.parse().map_err(|_| FileError::NotANumber {
+        line,
+        row: given / columns + 1,
+        column: given % columns + 1,
+        text: word.chars().take(40).collect(),
+    })
 }
 
 /// Entries of a text header that are numbers.

@@ -7,8 +7,9 @@
 //! Golden Software, Surfer user's guide, "ASCII grid file format", "Surfer 6 grid file format" and
 //! "Surfer 7 grid file format".
 
-use super::bytes::{Bytes, checked_shape, latin_1, refuse_short_text, with_capacity};
-use super::numbers::Numbers;
+use super::bytes::{Bytes, checked_shape, refuse_short_text};
+use super::lines::{Lines, broken_line};
+use super::words::{WordRows, Words, checked};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
@@ -26,43 +27,20 @@ const FORMAT: &str = ".grd";
 /// Reads a grid of any of the three forms.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     match file.beginning(TEXT.len())?.as_slice() {
-        TEXT => read_text(&file),
+        TEXT => checked(&file, open_text),
         BINARY => read_binary(file),
         _ => read_binary_7(file),
     }
 }
 
 /// Least and greatest x and y, then those of the heights, which are not needed.
-fn read_text(file: &Bytes) -> Result<Map, FileError> {
-    let bytes = file.all()?;
-    let text = latin_1(&bytes);
-    let mut words = text.lines().enumerate().flat_map(|(index, line)| {
-        line.split_ascii_whitespace()
-            .map(move |word| (index + 1, word))
-    });
-    words.next();
-    let mut line_now = 1;
-    let mut number = |what: &str| -> Result<f64, FileError> {
-        let (line, word) = words.next().ok_or_else(|| FileError::BrokenText {
-            format: FORMAT,
-            line: line_now,
-            what: format!("the file ends before {what}"),
-        })?;
-        line_now = line;
-        word.parse().map_err(|_| FileError::BrokenText {
-            format: FORMAT,
-            line,
-            what: format!(
-                "{:?} is not a number; {what} is expected",
-                word.chars().take(40).collect::<String>()
-            ),
-        })
-    };
-    let columns = number("the number of columns")?;
-    let rows = number("the number of rows")?;
+fn open_text(file: &Bytes) -> Result<Matrix<WordRows>, FileError> {
+    let mut words = Words::new(Lines::latin_1(file));
+    words.next()?;
+    let columns = number(&mut words, || "the number of columns".to_owned())?;
+    let rows = number(&mut words, || "the number of rows".to_owned())?;
     let shape = checked_shape(whole(rows), whole(columns))?;
-    refuse_short_text(shape, bytes.len())?;
-    file.expect_held(shape)?;
+    refuse_short_text(shape, file.length())?;
     let mut ends = [0.0; 6];
     for (end, what) in ends.iter_mut().zip([
         "the least x",
@@ -72,20 +50,31 @@ fn read_text(file: &Bytes) -> Result<Map, FileError> {
         "the least height",
         "the greatest height",
     ]) {
-        *end = number(what)?;
+        *end = number(&mut words, || what.to_owned())?;
     }
-    let mut values = with_capacity(shape)?;
-    for index in 0..shape[0] * shape[1] {
-        let (row, column) = (index / shape[1] + 1, index % shape[1] + 1);
-        let what = format!("the height of row {row}, column {column}");
-        values.push(unless(BLANK, number(&what)?));
-    }
-    let steps = steps(ends, shape).ok_or_else(|| FileError::BrokenText {
-        format: FORMAT,
-        line: line_now,
-        what: REVERSED.to_owned(),
-    })?;
-    Ok(map(Numbers::Held(values), shape, steps))
+    let steps = steps(ends, shape).ok_or_else(|| broken_line(FORMAT, words.line(), REVERSED))?;
+    let heights = WordRows::new(words, shape, |words, given, [_, columns]| {
+        let (row, column) = (given / columns + 1, given % columns + 1);
+        let what = || format!("the height of row {row}, column {column}");
+        Ok(unless(BLANK, number(words, what)?))
+    });
+    Ok(map(heights, shape, steps))
+}
+
+/// The next number of a text; `what` names it in messages.
+fn number(words: &mut Words, what: impl FnOnce() -> String) -> Result<f64, FileError> {
+    let Some((line, word)) = words.next()? else {
+        return Err(broken_line(
+            FORMAT,
+            words.line(),
+            format!("the file ends before {}", what()),
+        ));
+    };
+    word.parse().map_err(|_| {
+        let word: String = word.chars().take(40).collect();
+        let what = format!("{word:?} is not a number; {} is expected", what());
+        broken_line(FORMAT, line, what)
+    })
 }
 
 /// A height, which is missing from a value on.
@@ -113,7 +102,7 @@ fn steps(ends: [f64; 6], [rows, columns]: [usize; 2]) -> Option<[f64; 2]> {
 }
 
 /// The map with the size from its spacing.
-fn map(values: Numbers, [rows, columns]: [usize; 2], [dx, dy]: [f64; 2]) -> Map {
+fn map<V>(values: V, [rows, columns]: [usize; 2], [dx, dy]: [f64; 2]) -> Matrix<V> {
     // Pixels of a single line are taken as square.
     let sides = [
         if columns == 1 { dy } else { dx } * columns as f64,
