@@ -152,12 +152,12 @@ fn a_convolution_of_long_lines_agrees_with_the_processor() {
     }
 }
 
-/// Fine and coarse points, each of several slabs.
-const FINE: [usize; 2] = [24, 32];
-const COARSE: [usize; 2] = [12, 16];
-/// Three slabs or more of the fine level: 16 pairs of rows, 3 KiB.
+/// Fine and coarse points, each of several slabs, in rows that compile fast.
+const FINE: [usize; 2] = [16, 48];
+const COARSE: [usize; 2] = [8, 24];
+/// Three slabs or more of the fine level: 24 pairs of rows, 3 KiB.
 const SLAB: u64 = 1 << 10;
-/// Lines that are long here: 6 * 4 and 8 * 4 points.
+/// Lines that are long here: 4 * 4 and 8 * 6 points.
 const LINE: usize = 8;
 /// Difference at a point where lines take two passes, against one.
 const LINE_BOUND: f64 = 2e-5;
@@ -291,7 +291,7 @@ fn every_kind_of_kernel_in_slabs_writes_the_same() {
     let long = with_lines(LINE, SLAB);
     let padded = Shape {
         points: FINE,
-        surface: [14, 20],
+        surface: [14, 40],
     };
     let whole = Shape::whole(COARSE[0], COARSE[1]);
     assert!(fine.slabs(padded).expect("slabs") >= 3);
