@@ -76,6 +76,8 @@ pub(super) fn accuracy(arguments: &AccuracyArguments) -> Result<(), Failure> {
         scene: &scene,
         arithmetics: OnceLock::new(),
     };
+    let outputs = [TABLE, "accuracy.png", "accuracy.svg"].map(|name| folder.join(name));
+    arguments.scene.expect_apart(&scene, outputs)?;
     let study = match Study::new(&scene, &shop, arguments.budget) {
         Err(AccuracyError::Surface(error)) => {
             return Err(arguments.scene.surface_failure(error));

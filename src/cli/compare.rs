@@ -15,6 +15,9 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     let scene = arguments.scene.read()?;
     // Before a surface is built of which nothing could be said.
     compare::check_scene(&scene)?;
+    let folder = folder_or_default(arguments.out.as_deref(), &arguments.scene.path, "_compare");
+    let outputs = ["csv", "png", "svg"].map(|end| folder.join("compare").with_extension(end));
+    arguments.scene.expect_apart(&scene, outputs)?;
     memory_check::check_scene(&scene)?;
     let surface = Surface::build(&scene).map_err(|error| arguments.scene.surface_failure(error))?;
     // Of a grid that a height file carries.
@@ -27,7 +30,6 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     if let Some(remark) = &device.remark {
         note(remark);
     }
-    let folder = folder_or_default(arguments.out.as_deref(), &arguments.scene.path, "_compare");
     let compared = compare::compare(setup, &|| device.backend(), &folder)?;
     for text in &compared.notes {
         note(text);

@@ -14,7 +14,7 @@ use crate::fit::{
     ColumnChoice, CurveColumns, FitError, FitRequest, FitResult, ForceCurve, Indenter, ModelFit,
     figure, headline, report, table as curve_table,
 };
-use crate::output::write_atomically;
+use crate::output::{expect_apart, expect_table, write_atomically};
 use crate::theory::jkr;
 use crate::units::{Dimension, angle_from_number, parse_quantity};
 
@@ -145,8 +145,13 @@ fn fit_file(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
         let out = folder_or_default(arguments.out.as_deref(), path, "_fits");
         return fit_folder(arguments, path, &out);
     }
-    let result = arguments.fit_curve(path)?;
     let folder = folder_or_default(arguments.out.as_deref(), path, "");
+    let [json, csv, png, svg] =
+        ["json", "csv", "png", "svg"].map(|end| folder.join("fit").with_extension(end));
+    expect_apart([&json, &csv, &png, &svg], [path])?;
+    let result = arguments.fit_curve(path)?;
+    let data = curve_table(&result);
+    expect_table(&csv, data.lines().next().unwrap_or_default())?;
     let title = path.file_name().unwrap_or_default().to_string_lossy();
     let mut text = format!("{:#}", report(&result, path));
     text.push('\n');
@@ -154,13 +159,10 @@ fn fit_file(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
     for warning in &result.warnings {
         warn(warning);
     }
-    write_atomically(&folder.join("fit.json"), text.as_bytes())?;
-    write_atomically(&folder.join("fit.csv"), curve_table(&result).as_bytes())?;
-    figure(&result, &title).write(&folder.join("fit.png"))?;
-    say(&format!(
-        "{}, fit.csv and fit.png written",
-        folder.join("fit.json").display()
-    ));
+    write_atomically(&json, text.as_bytes())?;
+    write_atomically(&csv, data.as_bytes())?;
+    figure(&result, &title).write(&png)?;
+    say(&format!("{}, fit.csv and fit.png written", json.display()));
     Ok(())
 }
 

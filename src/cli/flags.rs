@@ -8,6 +8,7 @@ const OPTIONS: &[(&str, &str)] = &[
         "name an empty or new folder with --out",
     ),
     ("name another folder", "name another folder with --out"),
+    ("name another output", "name another one with --out"),
     (
         "into another folder writes",
         "into another folder (--out) writes",

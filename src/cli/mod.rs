@@ -43,7 +43,7 @@ use crate::backend::ranks::MpiError;
 use crate::backend::ranks::RankError;
 use crate::device::DeviceError;
 use crate::fit::FitError;
-use crate::output::{OutputError, visible, visible_line};
+use crate::output::{OutputError, expect_apart, visible, visible_line};
 use crate::run::{MemoryError, RunError};
 use crate::scene::{BackendName, Precision, Scene, SceneErrors};
 use crate::surface::SurfaceError;
@@ -154,6 +154,15 @@ impl SceneArguments {
     /// Reads the scene with its overrides.
     fn read(&self) -> Result<Scene, Failure> {
         Ok(Scene::read(&self.path, &self.set)?)
+    }
+
+    /// Refuses outputs that would overwrite the scene or a file that it reads.
+    fn expect_apart(
+        &self,
+        scene: &Scene,
+        outputs: impl IntoIterator<Item = PathBuf>,
+    ) -> Result<(), OutputError> {
+        expect_apart(outputs, scene.files().chain([self.path.as_path()]))
     }
 
     /// A surface of this scene that cannot be built.

@@ -9,10 +9,13 @@ use super::{Failure, say};
 use crate::output::csv_line::csv_line;
 use crate::output::curve::unit_of;
 use crate::output::plot::{Axis, DISTINCT, Figure, Panel, PlotPoint, Series};
-use crate::output::write_atomically;
+use crate::output::{expect_apart, expect_table, write_atomically};
 
 /// Points of a curve up to which each is marked.
 const MARKED: usize = 60;
+/// First columns of the data.
+const HEAD: [&str; 2] = ["run", "row"];
+
 #[derive(Debug, Args)]
 pub(super) struct PlotArguments {
     /// Folders of runs, or tables like their curve.csv
@@ -55,14 +58,17 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         panels: pairs.iter().map(|pair| panel(pair, &runs)).collect(),
         ..Figure::default()
     };
-    let picture = arguments.out.with_extension("png");
-    let data = arguments.out.with_extension("csv");
+    let [picture, vectors, data] =
+        ["png", "svg", "csv"].map(|end| arguments.out.with_extension(end));
+    let read = runs.iter().map(|run| run.path.as_path());
+    expect_apart([&picture, &vectors, &data], read)?;
+    expect_table(&data, &HEAD.join(","))?;
     figure.write(&picture)?;
     write_atomically(&data, table(&pairs, &figure.names, &runs).as_bytes())?;
     say(&format!(
         "{}, {} and {} written",
         picture.display(),
-        arguments.out.with_extension("svg").display(),
+        vectors.display(),
         data.display()
     ));
     Ok(())
@@ -203,7 +209,7 @@ fn table(pairs: &[[String; 2]], names: &[String], runs: &[Table]) -> String {
             columns.push(name);
         }
     }
-    let mut text = csv_line(["run", "row"].iter().chain(&columns));
+    let mut text = csv_line(HEAD.iter().chain(&columns));
     for (name, run) in names.iter().zip(runs) {
         for (index, row) in run.rows.iter().enumerate() {
             let value = |column: &&str| {

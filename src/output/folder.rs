@@ -377,20 +377,6 @@ fn remove_files(folder: &Path, own: impl Fn(&str, bool) -> bool) -> Result<(), O
     Ok(())
 }
 
-/// Refuses a file at `path` that does not begin with `head`, the first line of a table of tabor, and a folder of it that
-/// is a file.
-pub fn expect_table(path: &Path, head: &str) -> Result<(), OutputError> {
-    if path.parent().is_some_and(Path::is_file) {
-        let reason = "its folder is a file; name a folder";
-        return Err(OutputError::refused(path, reason));
-    }
-    if fs::read(path).is_ok_and(|old| !old.starts_with(head.as_bytes())) {
-        let reason = "is not a table that tabor wrote; name another folder";
-        return Err(OutputError::refused(path, reason));
-    }
-    Ok(())
-}
-
 /// Gives the file at `path` the first free name of `NAME.before`, `NAME.before2` and so on, which no run
 /// removes, and returns it.
 pub fn set_aside(path: &Path) -> Result<PathBuf, OutputError> {

@@ -49,6 +49,7 @@ pub(crate) mod si;
 pub mod state;
 #[doc(hidden)]
 pub mod summary;
+mod target;
 mod visible;
 #[doc(hidden)]
 pub mod volume;
@@ -69,7 +70,7 @@ pub use fields::FieldRows;
 pub(crate) use fields::write_field_rows;
 pub use fields::{write_field, write_field_single};
 #[doc(hidden)]
-pub use folder::{RunFolder, expect_table, set_aside, write_atomically, write_within};
+pub use folder::{RunFolder, set_aside, write_atomically, write_within};
 #[doc(hidden)]
 pub use growing::GrowingTable;
 #[doc(hidden)]
@@ -89,6 +90,9 @@ pub(crate) use sentence::sentence;
 pub use state::SavedState;
 pub(crate) use state::{StateFile, hand_over};
 pub use summary::{Effects, Seconds, Summary, peak_memory_bytes};
+#[cfg(feature = "cli")]
+pub(crate) use target::expect_apart;
+pub(crate) use target::expect_table;
 #[doc(hidden)]
 pub use visible::{visible, visible_line};
 #[doc(hidden)]

@@ -15,6 +15,7 @@ use serde_json::Value;
 use super::curve;
 use super::error::OutputError;
 use super::folder::{files_of_fields, hidden_file};
+use super::target::expect_apart;
 use crate::scene::FieldName;
 
 /// Conventions that the file keeps.
@@ -35,9 +36,12 @@ const HEAD: u64 = 4096;
 /// # Errors
 /// A folder without a run; files of it that are damaged; what the system or the library says.
 pub fn write_netcdf(run: &Path, file: &Path) -> Result<(), OutputError> {
-    let table = Table::read(&run.join("curve.csv"))?;
-    let summary = read_summary(&run.join("summary.json"))?;
+    let [curve, summary_path] = ["curve.csv", "summary.json"].map(|name| run.join(name));
+    let table = Table::read(&curve)?;
+    let summary = read_summary(&summary_path)?;
     let fields = files_of_fields(&run.join("fields"), ".npy");
+    let fields_read = fields.iter().map(|(_, _, path)| path.as_path());
+    expect_apart([file], fields_read.chain([curve.as_path(), &summary_path]))?;
     let hidden = hidden_file(file);
     let failed = |error: netcdf::Error| {
         OutputError::write("write", file)(match error {

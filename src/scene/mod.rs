@@ -62,6 +62,20 @@ use reader::{Log, Reader};
 const MOST_BYTES: u64 = 32 << 20;
 
 impl Scene {
+    /// The files that it reads: height maps, and the map of its adhesion.
+    #[cfg(feature = "cli")]
+    pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {
+        let heights = self.surfaces.iter().filter_map(|part| match part {
+            SurfacePart::File(file) => Some(file.path.as_path()),
+            _ => None,
+        });
+        let map = self.adhesion.as_ref().and_then(|it| match &it.map {
+            Some(AdhesionMap::File(path)) => Some(path.as_path()),
+            _ => None,
+        });
+        heights.chain(map)
+    }
+
     /// Reads a scene file, with `overrides` as `--set KEY=VALUE` gives them.
     ///
     /// # Errors

@@ -10,7 +10,7 @@ use super::axis::{Axis, AxisTable};
 use super::cases::{Case, cases};
 use super::error::SweepError;
 use super::outcome::QUANTITIES;
-use crate::scene::{AdhesionMap, Scene, SceneError, SceneErrors, SurfacePart, unit_of};
+use crate::scene::{Scene, SceneError, SceneErrors, unit_of};
 use crate::units::parse_any_quantity;
 
 /// Most cases of a study.
@@ -337,19 +337,11 @@ fn flatten(before: &str, table: &toml::Table, set: &mut Vec<(String, String)>) {
 
 /// Adds the checksums of the files that a scene reads; one that cannot be read is a case's to report.
 fn add_files(scene: &Scene, files: &mut BTreeMap<PathBuf, u32>) {
-    let heights = scene.surfaces.iter().filter_map(|part| match part {
-        SurfacePart::File(file) => Some(&file.path),
-        _ => None,
-    });
-    let map = scene.adhesion.as_ref().and_then(|it| match &it.map {
-        Some(AdhesionMap::File(path)) => Some(path),
-        _ => None,
-    });
-    for path in heights.chain(map) {
+    for path in scene.files() {
         if !files.contains_key(path)
             && let Ok(bytes) = std::fs::read(path)
         {
-            files.insert(path.clone(), crc32fast::hash(&bytes));
+            files.insert(path.to_path_buf(), crc32fast::hash(&bytes));
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `tabor plot`: several runs in one picture, with its vectors and its data.
 
 use std::fs;
+use std::path::{Path, PathBuf};
 
 use crate::shared::binary::{errors, number, table, tabor};
 use crate::shared::trials::tests;
@@ -81,4 +82,148 @@ fn two_runs_make_one_picture() {
     }
 }
 
-tests![two_runs_make_one_picture,];
+/// What a call reads, and the rows of any run, are never replaced by its outputs: refused before anything is written.
+fn outputs_do_not_overwrite_what_is_read() {
+    let place = tempfile::tempdir().expect("a folder");
+    let path = place.path();
+    let text = fs::read_to_string("examples/force_curve.csv").expect("a curve");
+    let rows = text.lines().filter(|line| !line.starts_with('#')).skip(1);
+    let curve = rows.fold("approach,force\n".to_owned(), |curve, row| {
+        let (approach, force) = row.split_once(',').expect("two columns, nm and nN");
+        curve + &format!("{}e-9,{}e-9\n", approach.trim(), force.trim())
+    });
+    fs::create_dir_all(path.join("run/state")).expect("a folder");
+    for name in ["run/curve.csv", "measured.csv", "fit.csv"] {
+        fs::write(path.join(name), &curve).expect("written");
+    }
+    // The scene of a height map in grey, whose name is that of a picture of the comparison.
+    let grey = image::GrayImage::from_fn(16, 16, |x, y| image::Luma([(x * y % 7) as u8 * 9]));
+    for name in ["accuracy.png", "heights.png"] {
+        grey.save(path.join(name)).expect("a picture");
+    }
+    let scene = r#"
+grid = { size = "1 um" }
+solid = { contact_modulus = "1 GPa" }
+surface = [{ kind = "file", path = "accuracy.png", black = 0.0, white = "5 nm" }]
+loading = { control = "pressure", path = ["1 MPa"] }
+"#;
+    fs::write(path.join("scene.toml"), scene).expect("written");
+    #[cfg(unix)]
+    std::os::unix::fs::symlink("measured.csv", path.join("linked.csv")).expect("a link");
+    let by = ["--x", "approach", "--y", "force"];
+    let plot =
+        |files: [&'static str; 2]| [&["plot", files[0], "--out", files[1]], &by[..]].concat();
+    let mut calls = vec![
+        (
+            plot(["run", "run/curve.png"]),
+            "run/curve.csv: is read here",
+        ),
+        (
+            plot(["./run/curve.csv", "run/../run/curve"]),
+            "curve.csv: is read here",
+        ),
+        (
+            plot(["measured.csv", "measured.png"]),
+            "measured.csv: is read here",
+        ),
+        // Of a run that is not drawn, and of no run.
+        (
+            plot(["measured.csv", "run/curve.svg"]),
+            "not an earlier table of this kind",
+        ),
+        (
+            vec!["fit", "fit.csv", "--radius", "10 um", "--out", "."],
+            "./fit.csv: is read here",
+        ),
+        (
+            vec!["fit", "measured.csv", "--radius", "10 um", "--out", "."],
+            "not an earlier table of this kind",
+        ),
+        (
+            vec!["accuracy", "scene.toml", "--out", "."],
+            "./accuracy.png: is read here",
+        ),
+        (
+            vec![
+                "surface",
+                "heights.png",
+                "--size",
+                "1 um",
+                "--black",
+                "0",
+                "--white",
+                "1 nm",
+                "--out",
+                ".",
+            ],
+            ".: holds heights.png, which is read here",
+        ),
+        (
+            vec!["surface", "scene.toml", "--out", "."],
+            ".: holds ./accuracy.png",
+        ),
+    ];
+    if cfg!(unix) {
+        calls.push((
+            plot(["measured.csv", "linked.png"]),
+            "linked.csv: is read here",
+        ));
+        calls.push((
+            plot(["linked.csv", "measured.png"]),
+            "measured.csv: is read here",
+        ));
+    }
+    let names = || {
+        let mut found: Vec<_> = walk(path);
+        found.sort();
+        found
+    };
+    let before = names();
+    for (call, expected) in calls {
+        let output = tabor(path, &call);
+        let said = errors(&output);
+        assert_eq!(output.status.code(), Some(2), "{call:?}: {said}");
+        assert!(said.contains(expected), "{call:?}: {said}");
+        assert!(said.contains("with --out"), "{call:?}: {said}");
+        assert_eq!(names(), before, "{call:?}");
+    }
+    // Its own outputs are replaced as ever.
+    for _ in 0..2 {
+        for call in [
+            plot(["run", "drawn.png"]),
+            vec!["fit", "measured.csv", "--radius", "10 um"],
+        ] {
+            let output = tabor(path, &call);
+            assert_eq!(
+                output.status.code(),
+                Some(0),
+                "{call:?}: {}",
+                errors(&output)
+            );
+        }
+    }
+    // The picture's data can be drawn too, elsewhere.
+    let output = tabor(path, &plot(["drawn.csv", "drawn.png"]));
+    assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+}
+
+/// Every file of a folder, with what is in it.
+fn walk(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
+    let entries = fs::read_dir(folder).expect("a folder");
+    let paths = entries.map(|entry| entry.expect("an entry").path());
+    paths
+        .flat_map(|path| {
+            if path.is_dir() {
+                walk(&path)
+            } else {
+                let bytes = fs::read(&path).expect("a file");
+                vec![(path, bytes)]
+            }
+        })
+        .collect()
+}
+
+tests![
+    two_runs_make_one_picture,
+    outputs_do_not_overwrite_what_is_read,
+];

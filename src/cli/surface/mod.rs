@@ -4,7 +4,7 @@ mod measured;
 mod memory;
 mod report;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::builder::TypedValueParser;
 
@@ -13,7 +13,8 @@ use super::patience::Patience;
 use super::quantity::quantity;
 use super::{Failure, SceneArguments, folder_or_default, key_and_value, one_of, print, warn};
 use crate::output::{
-    OutputError, Picture, RunFolder, visible_line, write_atomically, write_field, write_picture,
+    OutputError, Picture, RunFolder, expect_apart, visible_line, write_atomically, write_field,
+    write_picture,
 };
 use crate::run::memory_check;
 use crate::scene::{
@@ -187,14 +188,15 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     let is_scene = source
         .extension()
         .is_some_and(|extension| extension == SCENE);
+    let path = folder_or_default(arguments.out.as_deref(), source, "_surface");
     let (surface, boundary, part) = if is_scene {
-        let (surface, boundary) = surface_of_scene(arguments)?;
+        let (surface, boundary) = surface_of_scene(arguments, &path)?;
         (surface, boundary, None)
     } else {
+        expect_apart([&path], [source.as_path()])?;
         let (surface, boundary, part) = surface_of_file(arguments)?;
         (surface, boundary, Some(part))
     };
-    let path = folder_or_default(arguments.out.as_deref(), source, "_surface");
     let report = Report::new(source, &surface, boundary);
     let measured = match &part {
         None => None,
@@ -229,7 +231,10 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
 }
 
 /// The surface of a scene, with its own boundary.
-fn surface_of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary), Failure> {
+fn surface_of_scene(
+    arguments: &SurfaceArguments,
+    out: &Path,
+) -> Result<(Surface, Boundary), Failure> {
     if !arguments.file.is_empty() {
         return Err(Failure::Usage(
             "options such as --unit, --detrend and --boundary are for files of heights; a scene says them itself (or --set surface.0.unit=...)"
@@ -243,6 +248,7 @@ fn surface_of_scene(arguments: &SurfaceArguments) -> Result<(Surface, Boundary),
     let path = arguments.source.clone();
     let described = SceneArguments { path, set };
     let scene = described.read()?;
+    described.expect_apart(&scene, [out.to_path_buf()])?;
     memory_check::check_files(&scene, 1)?;
     let boundary = scene.grid.boundary;
     let refuse = |points| memory::check_statistics(&arguments.source, points, boundary);
