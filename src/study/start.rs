@@ -20,11 +20,16 @@ fn mean_of(problem: &Problem, values: &[f64]) -> f64 {
 pub(super) fn start(attempt: &mut Attempt, load: &Load) -> Result<Start, BackendError> {
     let problem = &attempt.setup.problem;
     let controller = attempt.controller;
+    // A gap of zero everywhere cannot be scaled to a mean of zero: what flows leaves it elsewhere.
+    let closes = problem.hardness.is_some() && load.hold == Hold::Gap(0.0);
     if !attempt.loaded {
+        let undeformed =
+            || controller.undeformed_gap(attempt.value, attempt.solver.plastic_depths());
         return Ok(
             if problem.boundary == Boundary::Free || controller.is_sprung() {
-                let depths = attempt.solver.plastic_depths();
-                Start::Gap(controller.undeformed_gap(attempt.value, depths))
+                Start::Gap(undeformed())
+            } else if closes {
+                Start::Gap(problem.moved_to(undeformed(), 0.0))
             } else {
                 Start::Cold
             },
@@ -37,7 +42,7 @@ pub(super) fn start(attempt: &mut Attempt, load: &Load) -> Result<Start, Backend
     let mean = mean_of(problem, &gap);
     let least = problem.share.least_of(&gap);
     // Open surfaces move rigidly; a wall in contact stays where it is and the rest scales.
-    if !problem.law.has_wall() {
+    if !problem.law.has_wall() || closes {
         gap = attempt.solver.problem().moved_to(gap, target);
     } else if least > 0.0 && least + target - mean >= 0.0 {
         let moved = target - mean;

@@ -481,6 +481,22 @@ fn nearly_all_of_the_surface_at_the_hardness() {
     assert!(solved.steps[0].row.contact_area_fraction >= 0.98);
 }
 
+/// A wave pressed by just its amplitude, at first and after another step: the mean gap is exactly 0, what flows at
+/// the crest is what stays open in the trough, and by that symmetry the mean pressure is half the hardness. The residual
+/// of 1e-10 leaves some thousand times it.
+fn a_wave_pressed_by_its_amplitude() {
+    let wave = "[[surface]]\nkind = \"wavy\"\namplitude = 0.015625\nwavelength = 1.0\n";
+    for path in ["[0.015625]", "[0.004, 0.015625, 0.015625]"] {
+        let loading = format!("control = \"approach\"\npath = {path}");
+        let grid = "points = 32\nsize = 1.0";
+        let solved = solve(&scene(grid, wave, "hardness = 0.045", "", &loading));
+        let row = &solved.steps.last().expect("a step").row;
+        println!("{path}: mean pressure {:.10}", row.mean_pressure);
+        assert!(row.converged && row.approach == Some(0.015625), "{row:?}");
+        assert!((row.mean_pressure / 0.0225 - 1.0).abs() < 1e-6, "{row:?}");
+    }
+}
+
 tests![
     load_unload_load_again_against_a_dense_solution,
     a_sphere_begins_to_flow_where_its_peak_says,
@@ -490,4 +506,5 @@ tests![
     a_hardness_that_nothing_reaches,
     a_flattened_sphere_sticks_more,
     nearly_all_of_the_surface_at_the_hardness,
+    a_wave_pressed_by_its_amplitude,
 ];
