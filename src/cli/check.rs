@@ -1,12 +1,16 @@
 //! `tabor check`: physics, accuracy, memory and cost of a scene, without solving it.
 
+use std::f64::consts::PI;
+
 use super::{CheckArguments, Failure, print, warn};
 use crate::backend::dry_run::Place;
 use crate::effect::Effect;
 use crate::law::Law;
 use crate::run::memory_check;
+use crate::scene::{Boundary, Control};
 use crate::study::{Cost, Memory, Plan};
 use crate::surface::{Source, refused_on_ranks};
+use crate::theory::{Sphere, hertz};
 use crate::units::format_si;
 
 /// Reads and validates a scene and prints a report.
@@ -32,11 +36,51 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     for warning in &plan.warnings {
         warn(warning);
     }
+    if let Some(warning) = wider_than_grid(&plan) {
+        warn(&warning);
+    }
     // A scene may be looked at here and run elsewhere.
     if let Err(error) = memory_check::check_grid(&plan.scene, plan.outline.grid) {
         warn(&Failure::from(error).to_string());
     }
     Ok(())
+}
+
+/// A warning of a sphere whose contact is bound to reach the edge of a free grid. The run warns where it does.
+///
+/// Of adhesion it takes DMT's pull-off force as a load, and of an approach Hertz's radius: less than any contact has.
+fn wider_than_grid(plan: &Plan) -> Option<String> {
+    let (scene, grid) = (&plan.scene, plan.outline.grid);
+    let (solid, loading) = (&scene.solid, &scene.loading);
+    let is_plain = solid.layer.is_none() && !solid.remembers() && loading.spring.is_none();
+    if scene.grid.boundary != Boundary::Free || !is_plain {
+        return None;
+    }
+    let most = loading.path.iter().copied().fold(0.0, f64::max);
+    let work = if plan.law.is_adhesive() && plan.outline.map.is_none() {
+        plan.law.work_of_adhesion()
+    } else {
+        0.0
+    };
+    let sphere = Sphere::new(plan.outline.sphere_radius?, solid.contact_modulus, work).ok()?;
+    let radius = match loading.control {
+        Control::Force => {
+            let attraction = 2.0 * PI * work * sphere.radius();
+            hertz::contact_radius(&sphere, most + attraction)
+        }
+        Control::Approach => hertz::contact_radius_at_approach(&sphere, most),
+        // A free boundary takes no other.
+        Control::Pressure | Control::MeanGap => return None,
+    };
+    let radius = radius
+        .ok()
+        .filter(|radius| *radius >= 0.5 * grid.lx.min(grid.ly))?;
+    Some(format!(
+        "the contact of this sphere will be at least {} wide, and the free grid is {} x {}: the run would solve a sphere that is cut off; take a larger grid.size with more points",
+        format_si(2.0 * radius, "m"),
+        format_si(grid.lx, "m"),
+        format_si(grid.ly, "m"),
+    ))
 }
 
 /// What each of so many ranks takes, and what they send.

@@ -13,6 +13,7 @@ use crate::run::memory_check;
 use crate::scene::{LoadingScene, Scene};
 use crate::study::{
     Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Planned, Setup, Walk, WalkError,
+    edge_warning,
 };
 use crate::surface::Surface;
 
@@ -175,9 +176,12 @@ impl Course {
     fn solve(&mut self, contact: &Contact) -> Result<Solution, ContactError> {
         let (setup, device, walk) = (&self.setup, &self.device, lock(&mut self.walk));
         let mut last = LastStep {
+            remarks: &mut self.remarks,
             watcher: contact.watcher.as_ref(),
             keeps_state: self.finished.is_some(),
-            ..LastStep::default()
+            evaluation: None,
+            jump: None,
+            checkpoint: Checkpoint::default(),
         };
         let make_backend = || device.backend();
         self.threads.run(|| {
@@ -228,8 +232,9 @@ fn check(scene: &Scene) -> Result<(), ContactError> {
 }
 
 /// Keeps what the last step leaves.
-#[derive(Default)]
 struct LastStep<'c> {
+    /// What the steps of the path have warned of.
+    remarks: &'c mut Vec<String>,
     watcher: Option<&'c Watcher>,
     /// Whether another path may have to go on from the state after it.
     keeps_state: bool,
@@ -242,6 +247,8 @@ impl Observer for LastStep<'_> {
     type Error = std::convert::Infallible;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error> {
+        let warning = edge_warning(&step, self.remarks);
+        self.remarks.extend(warning);
         self.evaluation = step.evaluation;
         self.jump = step.jump;
         Ok(())

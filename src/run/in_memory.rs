@@ -13,7 +13,7 @@ use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::output::Seconds;
 use crate::scene::Scene;
-use crate::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, walk};
+use crate::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, edge_warning, walk};
 use crate::surface::Surface;
 
 /// Solves every step of a scene as [`run_with`](super::run_with) does, and writes nothing. Without a number of threads
@@ -42,36 +42,37 @@ pub fn solve_with(
         observer.warning(warning);
     }
     let clock = Clock::start();
-    let (end, device) = match walk_on_device(&setup, &device, options, observer) {
+    let mut warnings = setup.warnings.clone();
+    let mut walk = |device: &_, observer: &mut dyn RunObserver| {
+        walk_on_device(&setup, device, options, observer, &mut warnings)
+    };
+    let (end, device) = match walk(&device, observer) {
         Ok(end) => (end, device),
         Err(error) => {
             let Some(fallback) = device.fallback(&setup) else {
                 return Err(error.into());
             };
             observer.warning(&format!("{error}; the processor begins again"));
-            (
-                walk_on_device(&setup, &fallback, options, observer)?,
-                fallback,
-            )
+            (walk(&fallback, observer)?, fallback)
         }
     };
     seconds.add("solve", clock.seconds());
-    let mut warnings = setup.warnings.clone();
     warnings.extend(warnings_at_end(&setup, &device, &end));
     let summary = end::summary(&setup, &device, &end, seconds, warnings);
     Ok(RunEnd::new(&setup, end, summary))
 }
 
-/// Walks the whole path on a device.
+/// Walks the whole path on a device, and adds what its steps warn of.
 fn walk_on_device(
     setup: &Setup,
     device: &SelectedDevice,
     options: &RunOptions,
     observer: &mut dyn RunObserver,
+    warnings: &mut Vec<String>,
 ) -> Result<WalkEnd, BackendError> {
     let steps = setup.scene.loading.path.len();
     observer.begins(steps, 0, setup.scene.solver.tolerance);
-    let mut steps = Steps { observer };
+    let mut steps = Steps { observer, warnings };
     let make_backend = || device.backend();
     let mut work = || walk(setup, &make_backend, &mut steps);
     let walked = match options.threads {
@@ -87,12 +88,18 @@ fn walk_on_device(
 /// Passes steps and iterations on.
 struct Steps<'a> {
     observer: &'a mut dyn RunObserver,
+    /// Warnings of the run.
+    warnings: &'a mut Vec<String>,
 }
 
 impl Observer for Steps<'_> {
     type Error = Infallible;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), Infallible> {
+        if let Some(text) = edge_warning(&step, self.warnings) {
+            self.observer.warning(&text);
+            self.warnings.push(text);
+        }
         self.observer.step(step.row);
         Ok(())
     }

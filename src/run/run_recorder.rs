@@ -22,7 +22,7 @@ use crate::scene::{Control, FieldName, Precision, StepChoice};
 #[cfg(feature = "images")]
 use crate::study::Planned;
 use crate::study::{
-    Checkpoint, Evaluation, FinishedStep, Observer, Search, Setup, StepRow, WalkEnd,
+    Checkpoint, Evaluation, FinishedStep, Observer, Search, Setup, StepRow, WalkEnd, edge_warning,
 };
 use crate::units::format_si;
 
@@ -180,6 +180,9 @@ impl<'a> RunRecorder<'a> {
             let only_last = output.steps == StepChoice::Last;
             self.folder
                 .remove_steps(|step| only_last || step >= number)?;
+        }
+        if let Some(text) = edge_warning(&step, &self.warnings) {
+            self.warn(text);
         }
         let is_end = step.is_last;
         self.is_over = is_end;

@@ -54,6 +54,8 @@ pub struct Evaluation {
     pub adhesive_energy: f64,
     /// Contact state.
     pub state: State,
+    /// Of the edges that cut a surface off, what is closest there: contact or attraction.
+    pub at_cut_edge: Option<PointState>,
     /// Depth by which plastic indentation has lowered the heights, this step included, m, shape
     /// `[ny, nx]`; empty for an elastic solid.
     pub plastic_depth: Vec<f64>,
@@ -213,8 +215,18 @@ impl Evaluation {
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
         let of = |state: PointState| points.iter().filter(|&&point| point == state).count();
-        let [contact, attracted] =
-            share.counts([of(PointState::Contact), of(PointState::Attracted)]);
+        let [touching, pulled] = setup.cut_edges.reached(&points, share);
+        let [contact, attracted, touching, pulled] = share.counts([
+            of(PointState::Contact),
+            of(PointState::Attracted),
+            touching,
+            pulled,
+        ]);
+        let at_cut_edge = match (touching, pulled) {
+            (0, 0) => None,
+            (0, _) => Some(PointState::Attracted),
+            _ => Some(PointState::Contact),
+        };
         let (contact, attracted) = (contact as f64 / count, attracted as f64 / count);
         // Out of contact.
         let strongest = || {
@@ -250,6 +262,7 @@ impl Evaluation {
             elastic_energy: elastic_energy * energy_unit,
             adhesive_energy: adhesive * energy_unit,
             state,
+            at_cut_edge,
             plastic_depth,
         })
     }

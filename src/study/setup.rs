@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::cut_edges::CutEdges;
 use super::hooks::{Effects, Hooks};
 use super::plan::Plan;
 use super::regime::Regime;
@@ -33,6 +34,8 @@ pub struct Setup {
     pub transforms: f64,
     /// The effects that the scene asks for.
     pub(super) effects: Effects,
+    /// The edges that cut the surface off.
+    pub(super) cut_edges: CutEdges,
 }
 
 impl Setup {
@@ -49,6 +52,7 @@ impl Setup {
         let share = Problem::share(&grid, scene.grid.boundary, ranks);
         let heights = surface.heights.as_slice();
         let statistics = Statistics::of_share(&grid, &share, heights, scene.grid.boundary);
+        let cut_edges = CutEdges::of(&surface, &share, scene.grid.boundary);
         let outline = Outline {
             grid,
             moments: statistics.moments,
@@ -93,6 +97,7 @@ impl Setup {
             regime,
             transforms,
             effects,
+            cut_edges,
         }
     }
 

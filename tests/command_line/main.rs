@@ -5,6 +5,7 @@ use std::process::ExitCode;
 mod accuracy;
 mod compare;
 mod contact;
+mod cut_edges;
 mod force_curves;
 mod hostile_calls;
 mod instrument_curves;
@@ -31,6 +32,7 @@ fn main() -> ExitCode {
         accuracy::tests(),
         compare::tests(),
         contact::tests(),
+        cut_edges::tests(),
         force_curves::tests(),
         hostile_calls::tests(),
         instrument_curves::tests(),
