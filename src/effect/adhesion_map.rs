@@ -1,8 +1,11 @@
 //! `map` in `[adhesion]`: a factor on the law's tension at each point.
 
-use crate::scene::Scene;
+use crate::scene::{self, Scene};
 use crate::solver::Problem;
 use crate::study::{DOUBLE, Hooks, HostBytes, Plan, Sizes};
+
+/// Share of a half period by which the pixels may widen or narrow it.
+const UNEVEN: f64 = 0.05;
 
 /// A tension that differs from point to point.
 pub(super) struct AdhesionMap;
@@ -43,6 +46,31 @@ impl Hooks for AdhesionMap {
         format!(
             "matters where it varies over lengths of the contacts: here the factor is {mean:.3} on average, give or take {deviation:.3}"
         )
+    }
+
+    fn warnings(&self, plan: &Plan) -> Vec<String> {
+        let adhesion = plan.scene.adhesion.as_ref();
+        let Some(scene::AdhesionMap::Pattern { kind, period, .. }) =
+            adhesion.and_then(|adhesion| adhesion.map.as_ref())
+        else {
+            return Vec::new();
+        };
+        let grid = plan.outline.grid;
+        let across = match kind {
+            scene::PatternKind::Stripe => 1,
+            scene::PatternKind::Checker => 2,
+        };
+        let halves = [grid.dx(), grid.dy()].map(|pixel| 0.5 * period / pixel);
+        let uneven = |half: &&f64| (half.round() - **half).abs() > UNEVEN * **half;
+        let Some(half) = halves[..across].iter().find(uneven) else {
+            return Vec::new();
+        };
+        let mean = plan.outline.map.map_or(1.0, |map| map.mean);
+        vec![format!(
+            "half a period of the pattern of adhesion.map is {half:.2} pixels, which the grid makes {} or {}: the mean factor is {mean:.3}; take points of which half a period holds a whole number, or more points",
+            half.floor(),
+            half.ceil(),
+        )]
     }
 
     fn host_bytes(&self, sizes: &Sizes) -> HostBytes {

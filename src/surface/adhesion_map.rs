@@ -14,6 +14,9 @@ use crate::scene::{AdhesionMap, Boundary, HeightFileScene, LawName, PatternKind,
 /// Rounding tolerance of a point's position in a pattern, in half periods.
 const ROUNDING: f64 = 1e-9;
 
+/// What messages show of a pattern in place of a file name.
+const PATTERN: &str = "pattern";
+
 /// What is wrong with an adhesion map.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -35,6 +38,18 @@ pub enum MapError {
         value: f64,
         /// What would do.
         remedy: &'static str,
+    },
+    /// Periods shorter than two pixels, which alias to longer ones.
+    #[error(
+        "period = {period:e} m along {axis} is shorter than two pixels of {pixel:e} m; take more points, or a longer period"
+    )]
+    PeriodTooShort {
+        /// The axis.
+        axis: &'static str,
+        /// The period of the pattern, m.
+        period: f64,
+        /// The grid spacing along the axis, m.
+        pixel: f64,
     },
     /// A map without any attraction.
     #[error("every factor is 0; leave [adhesion] out, or take a map that attracts somewhere")]
@@ -77,11 +92,11 @@ pub(super) fn build(
             period,
             low,
             high,
-        } => (
-            // The message shows this in place of a file name.
-            PathBuf::from("pattern"),
-            pattern(*kind, *period, [*low, *high], grid, rows),
-        ),
+        } => {
+            check_period(*kind, *period, grid)?;
+            let factors = pattern(*kind, *period, [*low, *high], grid, rows);
+            (PathBuf::from(PATTERN), factors)
+        }
     };
     let checked = check(&factors, adhesion.law, grid, &held);
     if let Some(error) = held.failure() {
@@ -126,6 +141,52 @@ fn read(
     Ok(map.heights)
 }
 
+/// Refuses a pattern that alternates faster than the pixels.
+pub(super) fn check_period(
+    kind: PatternKind,
+    period: f64,
+    grid: &Grid,
+) -> Result<(), SurfaceError> {
+    let [x, y] = [("x", grid.dx()), ("y", grid.dy())];
+    let axes = match kind {
+        PatternKind::Checker => vec![x, y],
+        PatternKind::Stripe => vec![x],
+    };
+    let too_short = |(_, pixel): &(_, f64)| period < 2.0 * pixel * (1.0 - ROUNDING);
+    match axes.into_iter().find(too_short) {
+        None => Ok(()),
+        Some((axis, pixel)) => Err(SurfaceError::AdhesionMap {
+            path: PathBuf::from(PATTERN),
+            problem: Box::new(MapError::PeriodTooShort {
+                axis,
+                period,
+                pixel,
+            }),
+        }),
+    }
+}
+
+/// Share of the points of a grid that have the low factor of a pattern.
+pub(super) fn low_share(kind: PatternKind, period: f64, grid: &Grid) -> f64 {
+    let share = |points: usize, pixel: f64| {
+        let odd = (0..points).filter(|i| is_odd(*i as f64 * pixel, period));
+        odd.count() as f64 / points as f64
+    };
+    let along_x = share(grid.nx, grid.dx());
+    match kind {
+        PatternKind::Stripe => along_x,
+        PatternKind::Checker => {
+            let along_y = share(grid.ny, grid.dy());
+            along_x * (1.0 - along_y) + (1.0 - along_x) * along_y
+        }
+    }
+}
+
+/// Whether a place lies in an odd half period, counted from 0.
+fn is_odd(place: f64, period: f64) -> bool {
+    (2.0 * (place / period) + ROUNDING).floor() % 2.0 != 0.0
+}
+
 /// Low and high factors alternate every half period; the first point is high.
 fn pattern(
     kind: PatternKind,
@@ -134,8 +195,7 @@ fn pattern(
     grid: &Grid,
     rows: Range<usize>,
 ) -> Vec<f64> {
-    // Parity by floating point: with periods far below a pixel no integer holds the count.
-    let odd = |place: f64| (2.0 * (place / period) + ROUNDING).floor() % 2.0 != 0.0;
+    let odd = |place: f64| is_odd(place, period);
     let mut factors = Vec::with_capacity(rows.len() * grid.nx);
     for row in rows {
         let odd_row = kind == PatternKind::Checker && odd(row as f64 * grid.dy());
@@ -194,14 +254,37 @@ mod tests {
         assert!(stripe.chunks(4).all(|row| row == [1.0, 0.5, 1.0, 0.5]));
     }
 
-    /// More half periods in a pixel than an integer holds: one factor each, no panic.
+    /// Three pixels a period: two high, one low; what an outline says without the factors is their mean.
     #[test]
-    fn periods_far_below_a_pixel() {
-        let grid = Grid::new([4, 4], [1.0, 1.0]);
-        for period in [1e-40, f64::MIN_POSITIVE] {
-            let checker = pattern(PatternKind::Checker, period, [0.0, 2.0], &grid, 0..4);
-            assert_eq!(checker[0], 2.0);
-            assert!(checker.iter().all(|factor| [0.0, 2.0].contains(factor)));
+    fn the_share_of_the_low_factor_is_that_of_the_points() {
+        for (points, period) in [([12, 9], 3.0), ([16, 8], 4.0), ([10, 7], 2.6)] {
+            let grid = Grid::new(points, points.map(|points| points as f64));
+            for kind in [PatternKind::Stripe, PatternKind::Checker] {
+                check_period(kind, period, &grid).expect("two pixels");
+                let factors = pattern(kind, period, [0.0, 1.0], &grid, 0..grid.ny);
+                let mean = factors.iter().sum::<f64>() / grid.len() as f64;
+                let low = low_share(kind, period, &grid);
+                assert!((1.0 - low - mean).abs() < 1e-12, "{points:?} {low} {mean}");
+            }
+        }
+    }
+
+    #[test]
+    fn periods_below_two_pixels_are_refused() {
+        let grid = Grid::new([4, 8], [1.0, 1.0]);
+        let refused = |kind, period| {
+            let checked = check_period(kind, period, &grid);
+            checked.map_err(|error| error.to_string()).err()
+        };
+        for period in [0.5, 0.5 - 1e-12] {
+            assert_eq!(refused(PatternKind::Checker, period), None);
+        }
+        for period in [0.49, 0.25, 1e-40, f64::MIN_POSITIVE] {
+            let message = refused(PatternKind::Stripe, period).expect("refused");
+            assert!(
+                message.contains("along x is shorter than two pixels"),
+                "{message}"
+            );
         }
     }
 }

@@ -11,7 +11,7 @@ use super::statistics::whole;
 use super::{Surface, adhesion_map, check_grid, part_error, self_affine, single_part};
 use crate::backend::Share;
 use crate::grid::Grid;
-use crate::scene::{AdhesionMap, Boundary, Scene, SurfacePart};
+use crate::scene::{AdhesionMap, Boundary, PatternKind, Scene, SurfacePart};
 
 /// Points a side of the sample that gives the slope and curvature of a shape.
 const SAMPLE: usize = 128;
@@ -79,13 +79,23 @@ impl MapOutline {
         }
     }
 
-    /// Summary of two alternating factors, ignoring the pixels at their boundaries.
-    pub fn from_pattern(low: f64, high: f64) -> MapOutline {
-        MapOutline {
+    /// Summary of two alternating factors on the points of a grid.
+    ///
+    /// # Errors
+    /// A period that the grid does not hold.
+    fn from_pattern(
+        kind: PatternKind,
+        period: f64,
+        [low, high]: [f64; 2],
+        grid: &Grid,
+    ) -> Result<MapOutline, SurfaceError> {
+        adhesion_map::check_period(kind, period, grid)?;
+        let share = adhesion_map::low_share(kind, period, grid);
+        Ok(MapOutline {
             largest: low.max(high),
-            mean: 0.5 * (low + high),
-            deviation: 0.5 * (high - low).abs(),
-        }
+            mean: share * low + (1.0 - share) * high,
+            deviation: (share * (1.0 - share)).sqrt() * (high - low).abs(),
+        })
     }
 }
 
@@ -169,8 +179,14 @@ impl Outline {
                 .as_ref()
                 .and_then(|adhesion| adhesion.map.as_ref())
             {
-                Some(AdhesionMap::Pattern { low, high, .. }) => {
-                    Some(MapOutline::from_pattern(*low, *high))
+                Some(AdhesionMap::Pattern {
+                    kind,
+                    period,
+                    low,
+                    high,
+                }) => {
+                    let factors = [*low, *high];
+                    Some(MapOutline::from_pattern(*kind, *period, factors, &grid)?)
                 }
                 _ => adhesion_map::build(scene, &grid, &whole)?
                     .as_deref()

@@ -93,6 +93,7 @@ fn table() -> Vec<BadFile> {
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"wide.csv\"", "SurfaceError::AdhesionMap", "[adhesion] map FOLDER/wide.csv: the map has 4 x 2 points (x, y), but the grid has 3 x 2"),
         good("[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"zeros.txt\"", "MapError::Factor", "[adhesion] map FOLDER/zeros.txt: row 1, column 1: a factor of 0e0; it must be above 0"),
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"zeros.txt\"", "MapError::Nothing", "every factor is 0; leave [adhesion] out"),
+        good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = { pattern = \"stripe\", period = 1.5e-6, low = 0, high = 1 }", "MapError::PeriodTooShort", "period = 1.5e-6 m along x is shorter than two pixels of 1e-6 m; take more points"),
         good("[[surface]]\nkind = \"file\"\npath = \"wide.csv\"", "FileError::OtherPoints", "[[surface]] 2: FOLDER/wide.csv: the map has 4 x 2 points (x, y), but an earlier height file has 3 x 2; leave points out"),
     ]
 }
