@@ -30,7 +30,7 @@ fn table(rows: &[StepRow]) -> String {
             .approach
             .map_or_else(|| "-".to_owned(), |value| format_si(value, "m"));
         text.push_str(&format!(
-            "{:>5} {:>12} {:>12} {:>12} {:>8.3}% {:>6} {:>9.1e}  {}{}\n",
+            "{:>5} {:>12} {:>12} {:>12} {:>8.3}% {:>6} {:>9.1e}  {}\n",
             row.step,
             approach,
             format_si(row.force, "N"),
@@ -38,8 +38,7 @@ fn table(rows: &[StepRow]) -> String {
             100.0 * row.contact_area_fraction,
             row.iterations,
             row.residual,
-            row.state.name(),
-            if row.converged { "" } else { ", not converged" }
+            row.state_words()
         ));
     }
     text
@@ -55,7 +54,7 @@ mod tests {
         let row = |step: usize| StepRow {
             step,
             time: None,
-            approach: (step != 30).then_some(-25e-9),
+            approach: (step < 30).then_some(-25e-9),
             mean_gap: None,
             force: 1.5e-6,
             mean_pressure: 2e6,
@@ -65,7 +64,7 @@ mod tests {
             adhesive_energy: 0.0,
             iterations: 41,
             residual: 9.96e-7,
-            converged: step != 30,
+            converged: step < 29,
             seconds: 1.0,
             contact_area_fraction_corrected: None,
             state: State::Contact,
@@ -88,7 +87,8 @@ mod tests {
         assert_eq!(words(lines[13]), ["..."]);
         assert_eq!(words(lines[14])[0], "19");
         assert_eq!(words(lines[25])[..2], ["30", "-"]);
-        assert!(lines[25].ends_with("contact, not converged"));
+        assert!(lines[24].ends_with("contact, not converged"));
+        assert!(lines[25].ends_with(" no solution"));
         assert_eq!(table(&[row(1)]).lines().count(), 2);
     }
 }

@@ -10,8 +10,13 @@ const NAMED: usize = 6;
 /// The result of the rows of a run: contact area, pull-off or what still sticks, jumps, lost energy.
 pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
     let area = |row: &&StepRow| row.contact_area_fraction;
-    let Some(largest) = rows.iter().max_by(|a, b| area(a).total_cmp(&area(b))) else {
-        return "No step is finished.".to_owned();
+    let solved = rows.iter().filter(|row| row.has_solution());
+    let Some(largest) = solved.max_by(|a, b| area(a).total_cmp(&area(b))) else {
+        let words = match rows {
+            [] => "No step is finished.",
+            _ => "No step has a solution.",
+        };
+        return words.to_owned();
     };
     let mut clauses = vec![if largest.contact_area_fraction > 0.0 {
         let share = per_cent(largest.contact_area_fraction);

@@ -68,6 +68,22 @@ pub struct StepRow {
 }
 
 impl StepRow {
+    /// Whether there is a state: of a value that no contact can have there is none.
+    #[cfg(feature = "images")]
+    pub(crate) fn has_solution(&self) -> bool {
+        self.converged || self.approach.is_some()
+    }
+
+    /// The state and whether it converged, in words.
+    #[cfg(feature = "images")]
+    pub(crate) fn state_words(&self) -> String {
+        match (self.converged, self.has_solution()) {
+            (true, _) => self.state.name().to_owned(),
+            (false, true) => format!("{}, not converged", self.state.name()),
+            (false, false) => "no solution".to_owned(),
+        }
+    }
+
     /// The value of a column that an effect adds; `None` where it is not there or has no value.
     pub fn column(&self, name: &str) -> Option<f64> {
         let found = self.columns.iter().find(|(column, _)| column.name == name);

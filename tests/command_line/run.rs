@@ -873,7 +873,24 @@ fn a_tabor_number_is_given_only_where_a_curvature_is_meant() {
     );
 }
 
+/// Nothing is said of the contact where there is no solution.
+fn a_step_beyond_closure_is_called_what_it_is() {
+    let (folder, _) = scene(
+        "grid = { points = 16, size = 1.0 }\nsolid = { contact_modulus = 1.0 }\nsurface = [{ kind = \"wavy\", amplitude = 0.01, wavelength = 1.0 }]\nloading = { control = \"approach\", path = [0.02] }\n",
+    );
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    let said = errors(&output);
+    assert_eq!(status(&output), 3, "{said}");
+    assert!(said.contains("No step has a solution."), "{said}");
+    assert!(said.contains("inf  no solution"), "{said}");
+    let report = fs::read_to_string(folder.path().join("out/report.html")).expect("a report");
+    for text in [&said, &report] {
+        assert!(!text.contains("do not touch") && !text.contains("separated"));
+    }
+}
+
 tests![
+    a_step_beyond_closure_is_called_what_it_is,
     a_tabor_number_is_given_only_where_a_curvature_is_meant,
     implausible_quantities_are_warned_of_with_the_likely_slip,
     until_apart_pulls_in_finer_steps_until_the_surfaces_separate,

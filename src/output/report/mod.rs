@@ -199,7 +199,8 @@ impl Report<'_> {
     /// Results that effects add: those that grow along the path at its end, the others at the largest contact.
     fn results_of_effects(&self) -> Vec<(String, String, String)> {
         let area = |row: &&StepRow| row.contact_area_fraction;
-        let largest = self.rows.iter().max_by(|a, b| area(a).total_cmp(&area(b)));
+        let solved = self.rows.iter().filter(|row| row.has_solution());
+        let largest = solved.max_by(|a, b| area(a).total_cmp(&area(b)));
         let at_zero = AtZeroLoad::from_rows(self.rows);
         let mut found = Vec::new();
         for column in self.setup.columns() {
@@ -481,7 +482,7 @@ fn step(row: &StepRow, quantities: &[Quantity], index: usize) -> Markup {
         tr {
             @for cell in cells { td.number { (cell) } }
             @for quantity in quantities { td.number { (shown(quantity.values[index], quantity.unit)) } }
-            td { (row.state.name()) @if !row.converged { ", not converged" } }
+            td { (row.state_words()) }
         }
         "\n"
     }
