@@ -6,10 +6,12 @@ use clap::Args;
 use csv::StringRecord;
 
 use super::{Failure, say};
+use crate::fit::ColumnChoice;
 use crate::output::csv_line::csv_line;
 use crate::output::curve::unit_of;
 use crate::output::plot::{Axis, DISTINCT, Figure, Panel, PlotPoint, Series};
 use crate::output::{expect_apart, expect_table, write_atomically};
+use crate::units::parse_any_quantity;
 
 /// Points of a curve up to which each is marked.
 const MARKED: usize = 60;
@@ -45,7 +47,7 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         .map(|path| Table::read(path))
         .collect::<Result<Vec<Table>, Failure>>()?;
     let pairs = match (&arguments.x, &arguments.y) {
-        (Some(x), Some(y)) => vec![[x.clone(), y.clone()]],
+        (Some(x), Some(y)) => vec![[x, y].map(|column| Column::read(column).name)],
         _ => usual(&runs),
     };
     for run in &runs {
@@ -53,6 +55,7 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
             run.expect(name)?;
         }
     }
+    expect_points(&pairs, &runs)?;
     let figure = Figure {
         names: names(&arguments.runs),
         panels: pairs.iter().map(|pair| panel(pair, &runs)).collect(),
@@ -74,10 +77,69 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses a picture without any point.
+fn expect_points(pairs: &[[String; 2]], runs: &[Table]) -> Result<(), Failure> {
+    let is_drawn = |pair: &[String; 2]| {
+        let mut points = runs.iter().flat_map(|run| run.points(pair));
+        points.any(|point| point.is_some())
+    };
+    if pairs.iter().any(is_drawn) {
+        return Ok(());
+    }
+    let Some((run, [x, y])) = runs.first().zip(pairs.first()) else {
+        return Ok(());
+    };
+    let names = run.columns.iter().map(|column| column.name.as_str());
+    let with_numbers: Vec<&str> = names.filter(|name| run.has_numbers(name)).collect();
+    Err(Failure::Usage(format!(
+        "{}: no row has a number both in {x} and in {y}, so there is nothing to draw; choose columns with numbers by --x and --y: {}",
+        run.path.display(),
+        with_numbers.join(", ")
+    )))
+}
+
+/// A column as its head names it.
+struct Column {
+    name: String,
+    /// SI unit of its values; empty where neither the head nor tabor gives one.
+    unit: &'static str,
+    /// What turns its numbers into that unit.
+    factor: f64,
+}
+
+impl Column {
+    /// Reads a head such as `approach [nm]`, as the columns of a force curve are read.
+    fn read(head: &str) -> Column {
+        let plain = || Column {
+            name: head.to_owned(),
+            unit: unit_of(head),
+            factor: 1.0,
+        };
+        let Ok(ColumnChoice {
+            column,
+            unit: Some(unit),
+            reversed: false,
+            ..
+        }) = ColumnChoice::parse(&format!("approach={head}"))
+        else {
+            return plain();
+        };
+        match parse_any_quantity(&format!("1 {unit}")) {
+            Some((factor, dimension)) => Column {
+                name: column,
+                unit: dimension.unit(),
+                factor,
+            },
+            None => plain(),
+        }
+    }
+}
+
 /// The columns of a table, as numbers where they are.
 struct Table {
     path: PathBuf,
-    names: Vec<String>,
+    columns: Vec<Column>,
+    /// In SI units.
     rows: Vec<Vec<Option<f64>>>,
 }
 
@@ -92,25 +154,33 @@ impl Table {
         let unreadable = |error: csv::Error| {
             Failure::Usage(format!("{}: cannot be read: {error}", path.display()))
         };
-        let mut reader = csv::Reader::from_path(&path).map_err(unreadable)?;
+        let mut reader = csv::ReaderBuilder::new();
+        let reader = reader.comment(Some(b'#')).from_path(&path);
+        let mut reader = reader.map_err(unreadable)?;
         let head = reader.headers().map_err(unreadable)?;
-        let names = head.iter().map(|name| name.trim().to_owned()).collect();
-        let number = |cell: &str| {
-            cell.trim()
+        let columns: Vec<Column> = head.iter().map(|head| Column::read(head.trim())).collect();
+        let number = |(cell, column): (&str, &Column)| {
+            let value = cell
+                .trim()
                 .parse()
                 .ok()
-                .filter(|value: &f64| value.is_finite())
+                .map(|value: f64| value * column.factor);
+            value.filter(|value| value.is_finite())
         };
         let rows = reader
             .records()
-            .map(|row| row.map(|row: StringRecord| row.iter().map(number).collect()))
+            .map(|row| row.map(|row: StringRecord| row.iter().zip(&columns).map(number).collect()))
             .collect::<Result<Vec<Vec<_>>, csv::Error>>()
             .map_err(unreadable)?;
-        Ok(Table { path, names, rows })
+        Ok(Table {
+            path,
+            columns,
+            rows,
+        })
     }
 
     fn place(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|known| known == name)
+        self.columns.iter().position(|column| column.name == name)
     }
 
     fn has_numbers(&self, name: &str) -> bool {
@@ -122,11 +192,14 @@ impl Table {
     fn expect(&self, name: &str) -> Result<(), Failure> {
         match self.place(name) {
             Some(_) => Ok(()),
-            None => Err(Failure::Usage(format!(
-                "{}: there is no column {name}; there are {}",
-                self.path.display(),
-                self.names.join(", ")
-            ))),
+            None => {
+                let names = self.columns.iter().map(|column| column.name.as_str());
+                Err(Failure::Usage(format!(
+                    "{}: there is no column {name}; there are {}",
+                    self.path.display(),
+                    names.collect::<Vec<_>>().join(", ")
+                )))
+            }
         }
     }
 
@@ -172,9 +245,14 @@ fn names(runs: &[PathBuf]) -> Vec<String> {
 }
 
 fn panel(pair: &[String; 2], runs: &[Table]) -> Panel {
+    let unit = |name: &str| {
+        let places = runs.iter().filter_map(|run| Some((run, run.place(name)?)));
+        let mut units = places.map(|(run, place)| run.columns[place].unit);
+        units.find(|unit| !unit.is_empty()).unwrap_or_default()
+    };
     let [x, y] = pair
         .each_ref()
-        .map(|name| Axis::linear(&name.replace('_', " "), unit_of(name)));
+        .map(|name| Axis::linear(&name.replace('_', " "), unit(name)));
     let series = (runs.iter().enumerate()).flat_map(|(name, run)| {
         let points = run.points(pair);
         let count = points.iter().flatten().count();

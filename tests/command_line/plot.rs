@@ -207,6 +207,40 @@ loading = { control = "pressure", path = ["1 MPa"] }
     assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
 }
 
+/// Heads with units are read as a force curve's are, and drawn in SI; a picture without a point is none.
+fn units_of_heads_count_and_an_empty_picture_is_refused() {
+    let place = tempfile::tempdir().expect("a folder");
+    let path = place.path();
+    let curve =
+        "# of an instrument\napproach [nm],force (uN),remark,nothing,t [s]\n1,2,a,,0\n3,5,b,,1\n";
+    fs::write(path.join("curve.csv"), curve).expect("written");
+    for x in ["approach", "approach [nm]"] {
+        let output = tabor(path, &["plot", "curve.csv", "--x", x, "--y", "force"]);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let drawn = table(&path.join("plot.csv"));
+        for (row, [approach, force]) in drawn.iter().zip([[1e-9, 2e-6], [3e-9, 5e-6]]) {
+            let near = |name, value: f64| {
+                let found = number(row, name).expect("a number");
+                assert!((found / value - 1.0).abs() < 1e-12, "{name}: {found}");
+            };
+            near("approach", approach);
+            near("force", force);
+        }
+        let svg = fs::read_to_string(path.join("plot.svg")).expect("a picture");
+        assert!(svg.contains("nm") && svg.contains("µN"), "{svg}");
+        fs::remove_file(path.join("plot.png")).expect("a picture");
+    }
+    for y in ["remark", "nothing"] {
+        let output = tabor(path, &["plot", "curve.csv", "--x", "t", "--y", y]);
+        let said = errors(&output);
+        assert_eq!(output.status.code(), Some(2), "{said}");
+        let expected = format!("no row has a number both in t and in {y}");
+        assert!(said.contains(&expected), "{said}");
+        assert!(said.contains("approach, force, t"), "{said}");
+        assert!(!path.join("plot.png").exists());
+    }
+}
+
 /// Every file of a folder, with what is in it.
 fn walk(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let entries = fs::read_dir(folder).expect("a folder");
@@ -226,4 +260,5 @@ fn walk(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
 tests![
     two_runs_make_one_picture,
     outputs_do_not_overwrite_what_is_read,
+    units_of_heads_count_and_an_empty_picture_is_refused,
 ];
