@@ -135,11 +135,12 @@ struct Shop<'a> {
 
 impl Shop<'_> {
     /// Asks the scene's own reader which of them are in this version, and the machine for an adapter
-    /// where one can take the grid.
+    /// where the scene leaves it open and one can take the grid.
     fn found(&self) -> Vec<(BackendName, Precision)> {
         let arguments = self.arguments;
         let mut backends = vec![BackendName::Cpu];
-        if has_adapter_for(self.scene, arguments.verbose) {
+        let asked = self.scene.solver.backend;
+        if asked != BackendName::Cpu && has_adapter_for(self.scene, arguments.verbose) {
             backends.push(BackendName::Gpu);
         }
         let precisions = [Precision::Double, Precision::Single, Precision::Mixed];

@@ -166,6 +166,23 @@ fn a_sphere_is_judged_by_its_closed_form() {
     assert!(cheapest["pareto"] == "true");
 }
 
+/// A scene that names the processor has no settings on another one, and no driver is begun for them.
+fn the_processor_alone_where_the_scene_says_so() {
+    let folder = scene(HERTZ);
+    let set = ["grid.points=16", "solver.backend=cpu"].map(|set| ["--set", set]);
+    let output = command(
+        folder.path(),
+        &[&["--budget", "5 s"], set.as_flattened()].concat(),
+    )
+    .output()
+    .expect("it runs");
+    let text = errors(&output);
+    assert_eq!(output.status.code(), Some(0), "{text}");
+    let rows = rows(folder.path());
+    assert!(!rows.is_empty() && rows.iter().all(|row| row["backend"] == "cpu"));
+    assert!(!text.contains("gpu"), "{text}");
+}
+
 fn what_there_is_no_time_for_is_left_out_and_listed() {
     let folder = scene(ROUGH);
     // The reference of 512 points is one of 1024, in twice the steps, and a coarser one takes an eighth of its time at most.
@@ -534,6 +551,7 @@ fn the_page_shows_what_was_measured() {
 
 tests![
     a_sphere_is_judged_by_its_closed_form,
+    the_processor_alone_where_the_scene_says_so,
     what_there_is_no_time_for_is_left_out_and_listed,
     a_rough_surface_is_judged_by_finer_grids_and_an_interrupt_keeps_the_rows,
     the_error_of_adaptive_time_steps_is_shown_beside_that_of_equal_ones,
