@@ -134,8 +134,7 @@ fn expected(scene: &Scene, grid: Grid, law: &Law) -> Expected {
             "store_weighted",
         ]);
         passes.extend(vec!["refine"; depth - 1]);
-        // The springs of these scenes are too soft for it.
-        if softens && scene.loading.spring.is_none() {
+        if softens {
             passes.extend(["soften", "store_retained"]);
             passes.extend(vec!["coarsen"; depth]);
             passes.extend(["load_weighted", "multiply", "store_weighted"]);
