@@ -10,7 +10,7 @@ use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::Measured;
 use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
 use super::segments::Segment;
-use super::start::{scale_grid, starts};
+use super::start::{beside_the_fold, scale_grid, starts};
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
 /// Maugis parameters at which all other numbers are fitted before lambda is freed: the sum of
@@ -25,6 +25,9 @@ const BEST_LAMBDAS: usize = 3;
 const LEAST_FREE: usize = 3;
 /// Points of the grid of scales from which a search starts, in addition to the usual starts.
 const GRID_STARTS: usize = 3;
+/// Most moves from one basin to the next, and the share by which the next must lie lower.
+const MOST_BASINS: usize = 8;
+const LOWER: f64 = 1e-6;
 /// Rise of the sum of squares, in variances of the noise, up to which a state contributes to the
 /// uncertainty: three standard deviations.
 const MOST_RISE: f64 = 9.0;
@@ -199,7 +202,7 @@ impl Variable {
 /// as shares of the ranges.
 struct Search<'a> {
     measured: &'a Measured,
-    tip: IndenterModel,
+    tip: &'a IndenterModel,
     variables: Vec<Variable>,
     start: Parameters,
 }
@@ -330,26 +333,39 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     if freedom.force_offset {
         variables.push(Variable::ForceOffset);
     }
+    let tip = IndenterModel::new(model, measured.indenter);
     let search_from = |start: Parameters, variables: &[Variable]| {
         let search = Search {
             measured,
-            tip: IndenterModel::new(model, measured.indenter),
+            tip: &tip,
             variables: variables.to_vec(),
             start,
         };
         let found = minimise(&search, DVector::zeros(variables.len()))?;
         found.sum().is_finite().then_some((found, search))
     };
-    let best_of = |starts: Vec<Parameters>, variables: &[Variable]| {
+    let least_of = |starts: Vec<Parameters>, variables: &[Variable]| {
         starts
             .into_iter()
             .filter_map(|start| search_from(start, variables))
             .min_by(|a, b| a.0.sum().total_cmp(&b.0.sum()))
     };
+    let best_of = |starts: Vec<Parameters>, variables: &[Variable]| {
+        let mut best = least_of(starts, variables)?;
+        for _ in 0..MOST_BASINS {
+            let here = best.1.parameters(&best.0.variables);
+            let beside = least_of(beside_the_fold(measured, &tip, &here), variables);
+            match beside.filter(|next| next.0.sum() < (1.0 - LOWER) * best.0.sum()) {
+                Some(next) => best = next,
+                None => break,
+            }
+        }
+        Some(best)
+    };
     let starts_at = |lambda: f64, variables: &[Variable]| {
-        let mut starts = starts(measured, model, lambda);
+        let mut starts = starts(measured, &tip, lambda);
         if model.adheres() {
-            starts.extend(best_of_grid(measured, model, lambda, variables));
+            starts.extend(best_of_grid(measured, &tip, lambda, variables));
         }
         starts
     };
@@ -382,12 +398,11 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
 /// The points of the grid of scales with the least sums of squares.
 fn best_of_grid(
     measured: &Measured,
-    model: Model,
+    tip: &IndenterModel,
     lambda: f64,
     variables: &[Variable],
 ) -> Vec<Parameters> {
-    let tip = IndenterModel::new(model, measured.indenter);
-    let grid = scale_grid(measured, &tip, lambda);
+    let grid = scale_grid(measured, tip, lambda);
     let mut search = Search {
         measured,
         tip,

@@ -72,6 +72,11 @@ impl MaugisCurve {
         })
     }
 
+    /// Approach of the fold; `None` where the curve has none.
+    pub(super) fn fold(&self) -> Option<f64> {
+        (self.model.lambda() > FOLD_LAMBDA).then_some(self.first)
+    }
+
     /// Force along the curve from the open disc to the contact; beyond its fold that of the fold.
     pub(super) fn force(&self, approach: f64) -> f64 {
         if approach >= self.first {

@@ -170,6 +170,16 @@ impl IndenterModel {
         })
     }
 
+    /// Approach of the fold where a prescribed approach jumps off, in the units of the indenter; `None` without one.
+    pub(super) fn fold(&self, lambda: f64) -> Option<f64> {
+        match self.model {
+            Model::Hertz | Model::Dmt => None,
+            Model::Jkr if self.is_sharp() => Some(adhesive_cone::GRIP),
+            Model::Jkr => Some(jkr::reduced_approach(jkr::grip())),
+            Model::MaugisDugdale => self.table(lambda, 0.0).ok()?.fold(),
+        }
+    }
+
     /// Approach in contact at a force, beyond pull-off, in the units of the indenter.
     pub(super) fn approach_at(&self, lambda: f64, force: f64) -> Result<f64, TheoryError> {
         let (low, _) = self.pull_off(lambda)?;

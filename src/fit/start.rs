@@ -4,17 +4,17 @@ use nalgebra::{Matrix2, Vector2};
 
 use super::curve_file::Sample;
 use super::measured::Measured;
-use super::model::{IndenterModel, Model, Parameters};
+use super::model::{IndenterModel, Parameters};
 
 /// Starting parameters: from pull-off and indentation, and from Hertz.
-pub(super) fn starts(measured: &Measured, model: Model, lambda: f64) -> Vec<Parameters> {
+pub(super) fn starts(measured: &Measured, tip: &IndenterModel, lambda: f64) -> Vec<Parameters> {
+    let model = tip.model;
     let baseline = measured.baseline();
     let (least, greatest) = measured.extremes();
     let mut starts = Vec::new();
     let hertz = hertz_start(measured, baseline, greatest);
-    let tip = IndenterModel::new(model, measured.indenter);
     if model.adheres()
-        && let Some(start) = pull_off_start(&tip, lambda, baseline, (least, greatest))
+        && let Some(start) = pull_off_start(tip, lambda, baseline, (least, greatest))
     {
         starts.push(start);
     }
@@ -99,6 +99,59 @@ pub(super) fn scale_grid(measured: &Measured, tip: &IndenterModel, lambda: f64) 
         }
     }
     grid
+}
+
+/// Measured approaches on each side of the fold to which it is moved.
+const BESIDE: usize = 2;
+/// Distance at which it is placed before them, as a share of their distance to the one before.
+const BEFORE: f64 = 0.01;
+/// Distance of approaches that are the same, as a share of the whole approach.
+const SAME: f64 = 1e-9;
+
+/// The same numbers with the fold just before the measured approaches that are next to it.
+///
+/// The force rises from the fold with infinite slope, so that the sum of squares has a ridge where the fold passes a
+/// point, and a minimum of its own for nearly every interval that the fold may lie in. No descent crosses the ridge. As the
+/// force of the point goes with the root of its distance, a descent from a shorter distance stays before the point.
+pub(super) fn beside_the_fold(
+    measured: &Measured,
+    tip: &IndenterModel,
+    here: &Parameters,
+) -> Vec<Parameters> {
+    let Some(fold) = tip.fold(here.maugis_parameter) else {
+        return Vec::new();
+    };
+    let (_, unit) = tip
+        .indenter
+        .units(here.contact_modulus, here.work_of_adhesion);
+    let fold = fold * unit;
+    let place = here.approach_offset + fold;
+    let mut sorted = measured.approaches.clone();
+    sorted.sort_by(f64::total_cmp);
+    // Loading and unloading may have the same approaches but for rounding.
+    sorted.dedup_by(|next, last| *next - *last < SAME * measured.approach_span);
+    let next = sorted.partition_point(|approach| *approach < place);
+    let beside = next.saturating_sub(BESIDE + 1)..(next + BESIDE).min(sorted.len());
+    let pairs = sorted[beside].windows(2);
+    pairs
+        .map(|pair| {
+            let moved = pair[1] - BEFORE * (pair[1] - pair[0]) - here.approach_offset;
+            if measured.freedom.approach_offset {
+                Parameters {
+                    approach_offset: here.approach_offset + moved - fold,
+                    ..*here
+                }
+            } else {
+                // The unit of approach goes with the power 2/3 of w for a sphere, with w for a cone.
+                let power = tip.indenter.radius().map_or(1.0, |_| 1.5);
+                let share = (moved / fold).max(0.1);
+                Parameters {
+                    work_of_adhesion: here.work_of_adhesion * share.powf(power),
+                    ..*here
+                }
+            }
+        })
+        .collect()
 }
 
 /// Force unit and baseline that bring reduced forces closest to the measured ones; `None` if that

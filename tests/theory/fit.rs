@@ -87,6 +87,56 @@ fn made(model: Model, lambda: f64, noise: f64, seed: u64) -> Vec<Sample> {
 const CURVES: u64 = 16;
 const MISSES: usize = 4;
 
+/// Loading, and unloading that ends at a point just before the fold. The sum of squares has a minimum for each interval
+/// between points that the fold may lie in; the least of them is no greater than the sum at the truth, which is that of the noise.
+#[test]
+fn no_fit_of_a_folded_curve_is_worse_than_the_truth() {
+    let truth = Parameters {
+        contact_modulus: 2e6,
+        work_of_adhesion: 0.03,
+        maugis_parameter: 1.0,
+        approach_offset: 300e-9,
+        force_offset: 0.0,
+    };
+    let (radius, fold) = (10e-6, 89.3e-9);
+    let sphere = IndenterModel::new(Model::Jkr, radius);
+    let rows = |count: usize, from: f64, to: f64| {
+        let step = (to - from) / (count - 1) as f64;
+        (0..count).map(move |i| from + step * i as f64)
+    };
+    let away: Vec<f64> = rows(60, -200e-9, fold).collect();
+    let near: Vec<f64> = rows(200, fold, 1.1e-6).collect();
+    let points: Vec<(f64, bool)> = (away.iter().map(|x| (*x, false)))
+        .chain(near.iter().map(|x| (*x, *x >= 300e-9)))
+        .chain(near.iter().rev().map(|x| (*x, true)))
+        .chain(away.iter().rev().map(|x| (*x, false)))
+        .collect();
+    for seed in 0..CURVES {
+        let mut random = Random(200 + seed);
+        let mut noise = 0.0;
+        let samples = points.iter().map(|(approach, in_contact)| {
+            let forces = sphere.forces(&truth, &[*approach]).expect("a force");
+            let error = 1e-8 * random.normal();
+            noise += error * error;
+            Sample {
+                approach: *approach,
+                force: error + if *in_contact { forces[0] } else { 0.0 },
+            }
+        });
+        let result = fitted(samples.collect(), radius, FREE);
+        let jkr = result.fit_of(Model::Jkr).expect("a fit");
+        assert!(
+            jkr.sum_of_squares <= noise,
+            "{seed}: {:e} {noise:e}",
+            jkr.sum_of_squares
+        );
+        assert_eq!(result.best().model, Model::Jkr, "{seed}");
+        let off = result.best().parameters.work_of_adhesion - truth.work_of_adhesion;
+        let known = result.work_uncertainty.expect("known");
+        assert!(off.abs() < 3.0 * known, "{seed}: {off:e} {known:e}");
+    }
+}
+
 /// Each model's curves.
 #[test]
 fn stated_uncertainties_cover_the_truth() {
