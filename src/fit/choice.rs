@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::advice::Advice;
-use super::curve_file::{ForceCurve, name};
+use super::curve_file::{ForceCurve, LEAST_ROWS, name};
 use super::error::FitError;
 use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
 use super::hysteresis;
@@ -224,9 +224,14 @@ fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
     !measured.freedom.force_offset || free >= ZERO_POINTS
 }
 
-/// Refuses a curve that fits far better with the sign of its approach, its force, or both reversed.
+/// Refuses a curve that fits far better with the sign of its approach, its force, or both reversed. Holds have no vote:
+/// the force of a solid that relaxes falls there, at no change of the approach.
 fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<(), FitError> {
-    let Some(best) = fits.iter().min_by(|a, b| a.aic.total_cmp(&b.aic)) else {
+    let least_of = |fits: &[ModelFit]| {
+        let best = fits.iter().min_by(|a, b| a.aic.total_cmp(&b.aic));
+        best.cloned()
+    };
+    let Some(mut best) = least_of(fits) else {
         return Ok(());
     };
     let (least, greatest) = measured.extremes();
@@ -236,15 +241,26 @@ fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<()
     let presses_from_afar = greatest.approach < least.approach
         && greatest.force - baseline > FAR_FORCE * (baseline - least.force);
     // Otherwise no model fits a curve of the wrong sign.
-    if pressed && !presses_from_afar && !misses(measured, best) {
+    if pressed && !presses_from_afar && !misses(measured, &best) {
         return Ok(());
     }
     let models = measured.indenter.models();
+    let moving = measured.without_holds();
+    if moving.samples.len() < LEAST_ROWS {
+        return Ok(());
+    }
+    if moving.samples.len() < measured.samples.len() {
+        let refitted = models.iter().filter_map(|model| fit_model(&moving, *model));
+        let Some(other) = least_of(&refitted.collect::<Vec<_>>()) else {
+            return Ok(());
+        };
+        best = other;
+    }
     let simple = models
         .iter()
         .filter(|model| **model != Model::MaugisDugdale);
     for reversed in ReversedSigns::ALL {
-        let other = measured.with_reversed(reversed);
+        let other = moving.with_reversed(reversed);
         let fitted = simple.clone().filter_map(|model| fit_model(&other, *model));
         let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
         if least < best.aic - DECISIVE_AIC {

@@ -4,6 +4,11 @@ use super::curve_file::Sample;
 use super::indenter::Indenter;
 use super::segments::{Segment, segments};
 
+/// An approach is held where this share of the points, and so many, lie within this share of the whole approach.
+const HOLD_SHARE: f64 = 0.05;
+const LEAST_HELD: usize = 5;
+const HOLD_BAND: f64 = 0.01;
+
 /// Numbers that are fitted in addition to those of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Freedom {
@@ -80,6 +85,27 @@ impl Measured {
             approach_span: span(|sample| sample.approach),
             samples,
         }
+    }
+
+    /// The same curve without the points at which the approach is held.
+    pub(super) fn without_holds(&self) -> Measured {
+        let points = self.approaches.len();
+        let band = HOLD_BAND * self.approach_span;
+        let mut samples = Vec::with_capacity(points);
+        let mut from = 0;
+        while from < points {
+            let (mut low, mut high) = (self.approaches[from], self.approaches[from]);
+            let stays = |approach: &&f64| {
+                (low, high) = (low.min(**approach), high.max(**approach));
+                high - low <= band
+            };
+            let count = self.approaches[from..].iter().take_while(stays).count();
+            if count < LEAST_HELD || (count as f64) < HOLD_SHARE * points as f64 {
+                samples.extend_from_slice(&self.samples[from..from + count]);
+            }
+            from += count;
+        }
+        Measured::new(samples, self.indenter, self.freedom)
     }
 
     /// The same curve with signs reversed.

@@ -5,5 +5,6 @@ mod checks;
 mod dmt_study;
 mod fit;
 mod fit_light;
+mod fit_relaxation;
 #[path = "../shared/mod.rs"]
 mod shared;

@@ -1,0 +1,87 @@
+//! `tabor fit` of solids that relax.
+
+use std::path::Path;
+
+use tabor::fit::{FitError, FitRequest, FitResult, ForceCurve, Indenter, Sample};
+
+use crate::shared::random::Random;
+
+const RADIUS: f64 = 10e-6;
+
+/// Relaxed modulus and that which relaxes, Pa, and relaxation time, s.
+type Solid = [f64; 3];
+
+/// A sphere that follows `approaches` at `times` on a standard linear solid, with noise of a share of the greatest force.
+/// The integral of Lee & Radok, with the power of the approach linear in time between points.
+fn pressed(solid: Solid, times: &[f64], approaches: &[f64], noise: f64, seed: u64) -> ForceCurve {
+    let [relaxed, rest, time] = solid;
+    let power = |approach: f64| approach.max(0.0).powf(1.5);
+    let (mut before, mut faded) = ((times[0], power(approaches[0])), 0.0);
+    let mut forces = Vec::new();
+    for (at, approach) in times.iter().zip(approaches) {
+        let now = power(*approach);
+        let step = (at - before.0) / time;
+        let fade = (-step).exp();
+        let mean = if step > 0.0 { (1.0 - fade) / step } else { 1.0 };
+        faded = faded * fade + (now - before.1) * mean;
+        before = (*at, now);
+        forces.push(4.0 / 3.0 * RADIUS.sqrt() * (relaxed * now + rest * faded));
+    }
+    let noise = noise * forces.iter().copied().fold(0.0, f64::max);
+    let mut random = Random(seed);
+    let samples = approaches
+        .iter()
+        .zip(forces)
+        .map(|(approach, force)| Sample {
+            approach: *approach,
+            force: force + noise * random.normal(),
+        });
+    ForceCurve {
+        samples: samples.collect(),
+        times: times.to_vec(),
+        ..ForceCurve::default()
+    }
+}
+
+/// Times and approaches of a ramp from as far before touch as it goes behind it, and of a hold.
+fn ramp_and_hold(points: usize, held: usize, duration: f64, depth: f64) -> (Vec<f64>, Vec<f64>) {
+    let step = duration / (points - 1) as f64;
+    let times = (0..points + held).map(|i| step * i as f64).collect();
+    let place = |i: usize| depth * (2.0 * i.min(points - 1) as f64 / (points - 1) as f64 - 1.0);
+    (times, (0..points + held).map(place).collect())
+}
+
+fn fit(curve: &ForceCurve, relaxation: bool, baseline: bool) -> Result<FitResult, FitError> {
+    let mut request = FitRequest::default();
+    (request.relaxation, request.baseline) = (relaxation, baseline);
+    request.fit(curve, Path::new("made.csv"), Indenter::from(RADIUS))
+}
+
+/// The force falls while the approach is held; its sign is right all the same, and a wrong one is found.
+#[test]
+fn a_hold_does_not_decide_the_sign() {
+    for (points, held) in [(401, 400), (401, 100), (201, 1800)] {
+        let (times, approaches) = ramp_and_hold(points, held, 0.2, 1e-6);
+        let curve = pressed([1e6, 2e6, 0.05], &times, &approaches, 0.003, 3);
+        let result = fit(&curve, false, false).expect("signs that are right");
+        assert!(!result.describes_curve, "{points} {held}");
+        for (approach, force) in [(-1.0, 1.0), (1.0, -1.0)] {
+            let turned = |sample: &Sample| Sample {
+                approach: approach * sample.approach,
+                force: force * sample.force,
+            };
+            let turned = ForceCurve {
+                samples: curve.samples.iter().map(turned).collect(),
+                ..curve.clone()
+            };
+            let error = fit(&turned, false, false).expect_err("a wrong sign");
+            assert!(
+                matches!(
+                    error,
+                    FitError::WrongWay { .. } | FitError::NoCompression { .. }
+                ),
+                "{points} {held} {approach} {force}: {error}"
+            );
+        }
+    }
+}
