@@ -30,7 +30,7 @@ const MOST_BASINS: usize = 8;
 const LOWER: f64 = 1e-6;
 /// Rise of the sum of squares, in variances of the noise, up to which a state contributes to the
 /// uncertainty: three standard deviations.
-const MOST_RISE: f64 = 9.0;
+pub(super) const MOST_RISE: f64 = 9.0;
 /// Standard deviation of ln lambda from which a parabola around the minimum is meaningless, and the
 /// profile over lambda is used.
 const FLAT_PROFILE: f64 = 0.5;
@@ -462,15 +462,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let free = search.variables.len();
     let degrees = points.saturating_sub(free).max(1);
     let sum = minimum.sum();
-    let autocorrelation = autocorrelation(&minimum.residuals, &measured.segments);
-    // Correlated residuals count for fewer: n (1 - r)/(1 + r) of them are independent.
-    let noticed = autocorrelation > 2.0 / (points as f64).sqrt();
-    let repeated = if noticed {
-        ((1.0 + autocorrelation) / (1.0 - autocorrelation)).min(0.1 * points as f64)
-    } else {
-        1.0
-    };
-    let variance = sum / degrees as f64 * repeated.max(1.0);
+    let (autocorrelation, variance) = variance_of(&minimum.residuals, degrees, &measured.segments);
     let covariance = covariance(&minimum.jacobian, variance);
     let span = measured.force_span;
     let interacting = search
@@ -574,6 +566,25 @@ fn correlations(
         }
     }
     pairs
+}
+
+/// Correlation of neighbouring residuals, and the variance of the residuals, corrected for it.
+pub(super) fn variance_of(
+    residuals: &DVector<f64>,
+    degrees: usize,
+    segments: &[Segment],
+) -> (f64, f64) {
+    let points = residuals.len() as f64;
+    let autocorrelation = autocorrelation(residuals, segments);
+    // Correlated residuals count for fewer: n (1 - r)/(1 + r) of them are independent.
+    let noticed = autocorrelation > 2.0 / points.sqrt();
+    let repeated = if noticed {
+        ((1.0 + autocorrelation) / (1.0 - autocorrelation)).min(0.1 * points)
+    } else {
+        1.0
+    };
+    let variance = residuals.norm_squared() / degrees as f64 * repeated.max(1.0);
+    (autocorrelation, variance)
 }
 
 /// Correlation of each residual with the next one of the same segment.

@@ -13,20 +13,37 @@ use nalgebra::{DMatrix, DVector};
 use super::choice::FitResult;
 use super::curve_file::{ForceCurve, name};
 use super::error::FitError;
+use super::estimate::{MOST_RISE, variance_of};
 use super::least_squares::{Problem, covariance, minimise};
+use super::segments::Segment;
 use crate::units::format_si;
 
 /// Fewest points in contact.
 const LEAST_POINTS: usize = 10;
-/// Relaxation times tried first, as shares of the time in contact, and places of first touch, as shares of the indentation.
-const TIMES: [f64; 9] = [0.01, 0.03, 0.06, 0.1, 0.2, 0.4, 0.8, 1.6, 4.0];
-const PLACES: [f64; 7] = [-0.2, -0.1, -0.05, 0.0, 0.05, 0.1, 0.2];
+/// Relaxation times of the profile: from and to these shares of the time in contact, and how many.
+const TIMES: (f64, f64) = (1e-3, 1e2);
+const PROFILE: usize = 31;
+/// Profile states from which the time is freed.
+const BEST_TIMES: usize = 3;
+/// Share of the greatest force that marks the contact.
+const MARK: f64 = 0.2;
+/// Places of first touch tried first: before the mark, as shares of the approach from there to the deepest point. Without
+/// relaxation a sphere touches 0.5 before it and a cone 0.8; a solid that is slow at first, farther.
+const PLACES: [f64; 18] = [
+    -0.2, -0.1, 0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0, 1.2, 1.5, 2.0, 3.0, 4.0,
+];
+/// The share of [`PLACES`] that the time in contact is counted from.
+const USUAL_PLACE: f64 = 0.5;
+/// Most points of the tries.
+const TRIED_POINTS: usize = 2000;
+/// Step of the derivatives by the place, as a share of the depth, and by the logarithm of the time.
+const DIFFERENCE: f64 = 1e-5;
 
 /// A standard linear solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Relaxation {
-    /// Contact modulus after long times, Pa, with its standard deviation; NaN where the curve does not determine it.
+    /// Contact modulus after long times, Pa, with its standard deviation; both NaN where the curve does not determine it.
     pub relaxed_modulus: (f64, f64),
     /// Contact modulus of sudden loads, Pa.
     pub instantaneous_modulus: (f64, f64),
@@ -40,24 +57,26 @@ pub struct Relaxation {
 
 impl fmt::Display for Relaxation {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let is_known = self.time.1 < self.time.0;
-        if !is_known {
-            return write!(f, "the loading determines no relaxation time");
-        }
-        let with = |(value, deviation): (f64, f64), unit: &str| {
-            format!(
-                "{} +- {}",
-                format_si(value, unit),
-                format_si(deviation, unit)
-            )
+        let known = |(value, deviation): (f64, f64), unit: &str, words: &str| {
+            value.is_finite().then(|| {
+                let [value, deviation] = [value, deviation].map(|number| format_si(number, unit));
+                format!("{value} +- {deviation}{words}")
+            })
         };
-        write!(
-            f,
-            "standard linear solid, on loading: E* = {} relaxed, {} at once, relaxation time {}",
-            with(self.relaxed_modulus, "Pa"),
-            with(self.instantaneous_modulus, "Pa"),
-            with(self.time, "s"),
-        )
+        let moduli = [
+            known(self.relaxed_modulus, "Pa", " relaxed"),
+            known(self.instantaneous_modulus, "Pa", " at once"),
+        ];
+        let moduli: Vec<String> = moduli.into_iter().flatten().collect();
+        let mut parts = Vec::new();
+        if !moduli.is_empty() {
+            parts.push(format!("E* = {}", moduli.join(", ")));
+        }
+        match known(self.time, "s", "") {
+            Some(time) => parts.push(format!("relaxation time {time}")),
+            None => parts.push("the loading determines no relaxation time".to_owned()),
+        }
+        write!(f, "standard linear solid, on loading: {}", parts.join(", "))
     }
 }
 
@@ -93,159 +112,312 @@ pub fn fit_relaxation(
     if times.len() != points.len() || !increase || !times.iter().all(|time| time.is_finite()) {
         return Err(FitError::NoTime { path: name(path) });
     }
-    let touch = result.best().parameters.approach_offset;
-    let approaches = &measured.approaches[points.clone()];
-    let deepest = approaches.iter().copied().fold(f64::NEG_INFINITY, f64::max) - touch;
-    let in_contact = approaches
-        .iter()
-        .filter(|approach| **approach > touch)
-        .count();
-    if in_contact < LEAST_POINTS {
-        return Err(no_loading(in_contact));
+    if times.len() < LEAST_POINTS {
+        return Err(no_loading(times.len()));
     }
-    let samples = &measured.samples[points];
-    let contact_time = times[times.len() - 1] - times[times.len() - in_contact];
-    let fit = Loading {
-        times,
-        approaches,
-        forces: samples.iter().map(|sample| sample.force).collect(),
+    let baseline = measured.baseline();
+    let samples = &measured.samples[points.clone()];
+    let loading = Loading {
+        times: times.to_vec(),
+        approaches: measured.approaches[points].to_vec(),
+        forces: samples
+            .iter()
+            .map(|sample| sample.force - baseline)
+            .collect(),
         power: measured.indenter.power(),
         stiffness: measured.indenter.stiffness(),
         scale: measured.force_span,
-        baseline: result.best().parameters.force_offset,
-        is_free: measured.freedom.approach_offset,
-        start: Solid {
-            moduli: [0.0; 2],
-            time: contact_time,
-            touch,
-        },
-        depth: deepest,
+        is_level_known: !measured.freedom.force_offset,
     };
-    let start = fit.first().ok_or_else(|| no_loading(in_contact))?;
-    let fit = Loading { start, ..fit };
-    let variables = if fit.is_free { 4 } else { 3 };
-    let minimum =
-        minimise(&fit, DVector::zeros(variables)).ok_or_else(|| no_loading(in_contact))?;
-    let degrees = (times.len() - variables).max(1);
-    let variance = minimum.sum() / degrees as f64;
-    let known = covariance(&minimum.jacobian, variance);
-    let solid = fit.solid(&minimum.variables);
-    let deviation = |place: usize| known[(place, place)].sqrt();
-    let [relaxed, rest] = solid.moduli;
-    let both = known[(0, 0)] * relaxed * relaxed
-        + known[(1, 1)] * rest * rest
-        + 2.0 * known[(0, 1)] * relaxed * rest;
+    let elastic = result.best().parameters.approach_offset;
+    let (places, contact_time) = loading.places(elastic, measured.freedom.approach_offset);
+    let profile = loading.profile(&places, contact_time);
+    let mut best_first: Vec<&State> = profile.iter().collect();
+    best_first.sort_by(|a, b| a.sum.total_cmp(&b.sum));
+    best_first.truncate(BEST_TIMES);
+    let is_free = places.len() > 1;
+    let freed = best_first
+        .iter()
+        .filter_map(|state| loading.descend(**state, true, is_free));
+    let best = freed.chain(best_first.iter().map(|state| **state));
+    let best = best.min_by(|a, b| a.sum.total_cmp(&b.sum));
+    let best = best.ok_or_else(|| no_loading(0))?;
+    let in_contact = loading.approaches.iter().filter(|x| **x > best.touch);
+    let in_contact = in_contact.count();
+    if in_contact < LEAST_POINTS {
+        return Err(no_loading(in_contact));
+    }
+    let (solid, residuals) = loading.solid(best.time, best.touch);
+    let free = 3 + usize::from(is_free) + usize::from(!loading.is_level_known);
+    let degrees = times.len().saturating_sub(free).max(1);
+    let whole = [Segment {
+        points: 0..times.len(),
+        loading: true,
+    }];
+    let (_, variance) = variance_of(&residuals, degrees, &whole);
+    let numbers = |time: f64, [relaxed, rest]: [f64; 2]| [relaxed, relaxed + rest, time];
+    let values = numbers(best.time, solid);
+    let mut deviations = loading.deviations(&best, true, is_free, variance);
+    // The sum of squares is no parabola where the time is hardly known: each state that the loading does not rule out counts.
+    for state in &profile {
+        let rise = (state.sum - best.sum) / variance;
+        if rise > MOST_RISE {
+            continue;
+        }
+        let own = loading.deviations(state, false, is_free, variance);
+        let there = numbers(state.time, loading.solid(state.time, state.touch).0);
+        for at in 0..3 {
+            let away = (there[at] - values[at]) / rise.max(1.0).sqrt();
+            let away = if at == 2 { away } else { away.hypot(own[at]) };
+            deviations[at] = deviations[at].max(away.abs());
+        }
+    }
+    let stated = |at: usize| {
+        let (value, deviation) = (values[at], deviations[at]);
+        if deviation < value {
+            (value, deviation)
+        } else {
+            (f64::NAN, f64::NAN)
+        }
+    };
     Ok(Relaxation {
-        relaxed_modulus: (relaxed, deviation(0) * relaxed),
-        instantaneous_modulus: (relaxed + rest, both.sqrt()),
-        time: (solid.time, deviation(2) * solid.time),
-        noise: variance.sqrt() * fit.scale,
+        relaxed_modulus: stated(0),
+        instantaneous_modulus: stated(1),
+        time: stated(2),
+        noise: (residuals.norm_squared() / degrees as f64).sqrt() * loading.scale,
         points: times.len(),
     })
 }
 
-/// A standard linear solid and the approach of first touch.
+/// A relaxation time and a place of first touch, with the sum of squares of the best moduli, in squares of the scale.
 #[derive(Clone, Copy, Debug)]
-struct Solid {
-    /// Relaxed modulus, and that which relaxes, Pa.
-    moduli: [f64; 2],
+struct State {
     time: f64,
     touch: f64,
+    sum: f64,
 }
 
-/// The loading of a curve. Variables are the logarithms of both moduli and of the time, and the place of first touch over the
-/// depth, about a start.
-struct Loading<'a> {
-    times: &'a [f64],
-    approaches: &'a [f64],
+/// The loading of a curve.
+#[derive(Clone, Debug)]
+struct Loading {
+    times: Vec<f64>,
+    approaches: Vec<f64>,
+    /// Above the estimated baseline.
     forces: Vec<f64>,
     power: f64,
     stiffness: f64,
     scale: f64,
-    baseline: f64,
-    is_free: bool,
-    start: Solid,
-    depth: f64,
+    is_level_known: bool,
 }
 
-impl Loading<'_> {
-    /// The power of the approach, and the same with a memory that fades over `time`.
-    fn parts(&self, time: f64, touch: f64) -> Vec<[f64; 2]> {
-        let power = |approach: f64| (approach - touch).max(0.0).powf(self.power);
+impl Loading {
+    /// The power of the approach, and the same with a memory that fades over `time`, as forces of a modulus of 1 over the
+    /// scale.
+    fn parts(&self, time: f64, touch: f64) -> [DVector<f64>; 2] {
+        let unit = self.stiffness / self.scale;
+        let power = |approach: f64| unit * (approach - touch).max(0.0).powf(self.power);
         let mut before = (self.times[0], power(self.approaches[0]));
         let mut faded = before.1;
-        let points = self.times.iter().zip(self.approaches);
-        points
-            .map(|(&at, approach)| {
-                let now = power(*approach);
-                let over = (at - before.0) / time;
-                // The mean of exp(-s/tau) over the step, for a power that grows evenly.
-                let share = if over > 0.0 {
-                    -(-over).exp_m1() / over
-                } else {
-                    1.0
-                };
-                faded = faded * (-over).exp() + (now - before.1) * share;
-                before = (at, now);
-                [now, faded]
+        let mut parts = [0, 1].map(|_| DVector::zeros(self.times.len()));
+        for (i, (&at, approach)) in self.times.iter().zip(&self.approaches).enumerate() {
+            let now = power(*approach);
+            let over = (at - before.0) / time;
+            // The mean of exp(-s/tau) over the step, for a power that grows evenly.
+            let share = if over > 0.0 {
+                -(-over).exp_m1() / over
+            } else {
+                1.0
+            };
+            faded = faded * (-over).exp() + (now - before.1) * share;
+            before = (at, now);
+            (parts[0][i], parts[1][i]) = (now, faded);
+        }
+        parts
+    }
+
+    /// Relaxed modulus and that which relaxes, neither below 0, by linear least squares, and the residuals.
+    fn solid(&self, time: f64, touch: f64) -> ([f64; 2], DVector<f64>) {
+        let mut parts = self.parts(time, touch);
+        let mut forces = DVector::from_fn(self.forces.len(), |i, _| self.forces[i] / self.scale);
+        if !self.is_level_known {
+            // The best baseline takes out the means.
+            for column in parts.iter_mut().chain([&mut forces]) {
+                column.add_scalar_mut(-column.mean());
+            }
+        }
+        let [now, faded] = &parts;
+        let (a, b, c) = (now.norm_squared(), now.dot(faded), faded.norm_squared());
+        let (p, q) = (now.dot(&forces), faded.dot(&forces));
+        let over = |product: f64, square: f64| {
+            if square > 0.0 {
+                (product / square).max(0.0)
+            } else {
+                0.0
+            }
+        };
+        let (alone, fading) = (over(p, a), over(q, c));
+        let determinant = a * c - b * b;
+        let both = [c * p - b * q, a * q - b * p].map(|product| product / determinant);
+        let is_solid = both
+            .iter()
+            .all(|modulus| modulus.is_finite() && *modulus >= 0.0);
+        let moduli = if is_solid && determinant > 0.0 {
+            both
+        } else if alone * alone * a >= fading * fading * c {
+            [alone, 0.0]
+        } else {
+            [0.0, fading]
+        };
+        let residuals = now * moduli[0] + faded * moduli[1] - forces;
+        (moduli, residuals)
+    }
+
+    fn state(&self, time: f64, touch: f64) -> State {
+        let sum = self.solid(time, touch).1.norm_squared();
+        State { time, touch, sum }
+    }
+
+    fn deepest(&self) -> f64 {
+        self.approaches[self.approaches.len() - 1]
+    }
+
+    /// Places where the surfaces may touch first, and about the time in contact. `elastic` is the place of the elastic fit,
+    /// which may be far off: where the solid relaxes it takes the bend for adhesion.
+    fn places(&self, elastic: f64, is_free: bool) -> (Vec<f64>, f64) {
+        let greatest = self.forces.iter().copied().fold(0.0, f64::max);
+        let light = self
+            .forces
+            .iter()
+            .rposition(|force| *force < MARK * greatest);
+        let mark = self.approaches[light.unwrap_or(0)];
+        let mut depth = self.deepest() - mark;
+        if depth <= 0.0 {
+            depth = self.deepest() - self.approaches[0];
+        }
+        let (places, usual) = if is_free {
+            let places = PLACES.iter().map(|place| mark - place * depth);
+            (
+                places.chain([elastic]).collect(),
+                mark - USUAL_PLACE * depth,
+            )
+        } else {
+            (vec![elastic], elastic)
+        };
+        let begin = self.approaches.iter().rposition(|x| *x <= usual);
+        let [begin, end] = [begin.unwrap_or(0), self.times.len() - 1].map(|at| self.times[at]);
+        let contact_time = if end > begin {
+            end - begin
+        } else {
+            end - self.times[0]
+        };
+        (places, contact_time)
+    }
+
+    /// The least sum of squares at each of several relaxation times.
+    fn profile(&self, places: &[f64], contact_time: f64) -> Vec<State> {
+        let every = self.times.len().div_ceil(TRIED_POINTS);
+        // Counted from the end, which is the deepest point.
+        let thinned = |values: &[f64]| {
+            let mut kept: Vec<f64> = values.iter().rev().step_by(every).copied().collect();
+            kept.reverse();
+            kept
+        };
+        let few = Loading {
+            times: thinned(&self.times),
+            approaches: thinned(&self.approaches),
+            forces: thinned(&self.forces),
+            ..*self
+        };
+        let growth = (TIMES.1 / TIMES.0).powf(1.0 / (PROFILE - 1) as f64);
+        let times = (0..PROFILE).map(|i| contact_time * TIMES.0 * growth.powi(i as i32));
+        times
+            .filter_map(|time| {
+                let tried = places.iter().map(|touch| few.state(time, *touch));
+                let best = tried.min_by(|a, b| a.sum.total_cmp(&b.sum))?;
+                let best = self.state(best.time, best.touch);
+                let descended = self.descend(best, false, places.len() > 1);
+                Some(descended.unwrap_or(best))
             })
             .collect()
     }
 
-    /// The best solid on a grid of times and places, both moduli by linear least squares.
-    fn first(&self) -> Option<Solid> {
-        let places: &[f64] = if self.is_free { &PLACES } else { &[0.0] };
-        let tried = TIMES
-            .iter()
-            .flat_map(|time| places.iter().map(move |place| (time, place)));
-        let found = tried.filter_map(|(time, place)| {
-            let (time, touch) = (
-                time * self.start.time,
-                self.start.touch + place * self.depth,
-            );
-            let rows = self.parts(time, touch);
-            let matrix = DMatrix::from_fn(rows.len(), 2, |i, j| self.stiffness * rows[i][j]);
-            let forces = DVector::from_fn(rows.len(), |i, _| self.forces[i] - self.baseline);
-            let solved = (matrix.tr_mul(&matrix))
-                .lu()
-                .solve(&matrix.tr_mul(&forces))?;
-            let rest = (&matrix * &solved - forces).norm_squared();
-            let moduli = [solved[0], solved[1]];
-            let is_solid = moduli
-                .iter()
-                .all(|modulus| *modulus > 0.0 && modulus.is_finite());
-            is_solid.then_some((
-                rest,
-                Solid {
-                    moduli,
-                    time,
-                    touch,
-                },
-            ))
-        });
-        let best = found.min_by(|a, b| a.0.total_cmp(&b.0));
-        best.map(|(_, solid)| solid)
+    /// The minimum reached from a state, with its time free or not, and its place.
+    fn descend(&self, start: State, time: bool, touch: bool) -> Option<State> {
+        let descent = Descent {
+            loading: self,
+            start,
+            time,
+            depth: (self.deepest() - start.touch).abs(),
+        };
+        let variables = usize::from(time) + usize::from(touch);
+        if variables == 0 {
+            return None;
+        }
+        let minimum = minimise(&descent, DVector::zeros(variables))?;
+        let (time, touch) = descent.numbers(&minimum.variables);
+        let sum = minimum.sum();
+        Some(State { time, touch, sum }).filter(|state| state.sum.is_finite())
     }
 
-    fn solid(&self, variables: &DVector<f64>) -> Solid {
-        let Solid {
-            moduli,
-            time,
-            touch,
-        } = self.start;
-        let place = if self.is_free { variables[3] } else { 0.0 };
-        Solid {
-            moduli: [
-                moduli[0] * variables[0].exp(),
-                moduli[1] * variables[1].exp(),
-            ],
-            time: time * variables[2].exp(),
-            touch: touch + place * self.depth,
+    /// Standard deviations of both moduli and the time, from the covariance, at that time or with the time free.
+    fn deviations(&self, state: &State, time: bool, touch: bool, variance: f64) -> [f64; 3] {
+        let [now, faded] = self.parts(state.time, state.touch);
+        let (moduli, _) = self.solid(state.time, state.touch);
+        let force = |time: f64, touch: f64| {
+            let [now, faded] = self.parts(time, touch);
+            now * moduli[0] + faded * moduli[1]
+        };
+        // All variables are of the order of 1.
+        let (modulus, depth) = (moduli[0] + moduli[1], (self.deepest() - state.touch).abs());
+        let mut columns = vec![now * modulus, faded * modulus];
+        if time {
+            let at = |step: f64| force(state.time * step.exp(), state.touch);
+            columns.push((at(DIFFERENCE) - at(-DIFFERENCE)) / (2.0 * DIFFERENCE));
         }
+        if touch {
+            let at = |step: f64| force(state.time, state.touch + depth * step);
+            columns.push((at(DIFFERENCE) - at(-DIFFERENCE)) / (2.0 * DIFFERENCE));
+        }
+        if !self.is_level_known {
+            for column in &mut columns {
+                column.add_scalar_mut(-column.mean());
+            }
+        }
+        let known = covariance(&DMatrix::from_columns(&columns), variance);
+        let both = known[(0, 0)] + known[(1, 1)] + 2.0 * known[(0, 1)];
+        let time = if time {
+            known[(2, 2)].sqrt() * state.time
+        } else {
+            0.0
+        };
+        let alone = known[(0, 0)].sqrt();
+        [modulus * alone, modulus * both.max(0.0).sqrt(), time]
     }
 }
 
-impl Problem for Loading<'_> {
+/// The search for time and place about a start: variables are the logarithm of the time, where it is free, and the place
+/// over the depth.
+struct Descent<'a> {
+    loading: &'a Loading,
+    start: State,
+    time: bool,
+    depth: f64,
+}
+
+impl Descent<'_> {
+    fn numbers(&self, variables: &DVector<f64>) -> (f64, f64) {
+        let State { time, touch, .. } = self.start;
+        let (faster, places) = if self.time {
+            (variables[0].exp(), variables.get(1))
+        } else {
+            (1.0, variables.get(0))
+        };
+        let place = places.copied().unwrap_or(0.0);
+        (time * faster, touch + place * self.depth)
+    }
+}
+
+impl Problem for Descent<'_> {
     type Choice = ();
 
     fn choose(&self, variables: &DVector<f64>) -> Option<((), DVector<f64>)> {
@@ -253,20 +425,9 @@ impl Problem for Loading<'_> {
     }
 
     fn residuals(&self, variables: &DVector<f64>, (): &()) -> Option<DVector<f64>> {
-        let Solid {
-            moduli,
-            time,
-            touch,
-        } = self.solid(variables);
-        let rows = self.parts(time, touch);
-        let residuals = rows.iter().zip(&self.forces).map(|(row, force)| {
-            let model = self.stiffness * (moduli[0] * row[0] + moduli[1] * row[1]);
-            (self.baseline + model - force) / self.scale
-        });
-        let residuals = DVector::from_iterator(rows.len(), residuals);
-        residuals
-            .iter()
-            .all(|value| value.is_finite())
-            .then_some(residuals)
+        let (time, touch) = self.numbers(variables);
+        let (_, residuals) = self.loading.solid(time, touch);
+        let are_finite = residuals.iter().all(|value| value.is_finite());
+        are_finite.then_some(residuals)
     }
 }
