@@ -431,6 +431,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("pixel.plu", patched(&plu, 404, &[0; 4]), "broken .plu file at byte 404: pixels of 0 x"),
         ("heights.vk4", patched(&vk4, 36, &[0; 4]), "broken .vk4 file at byte 36: it holds no heights"),
         ("bits.vk4", patched(&vk4, 84 + 4 * 76 + 8, &[24]), "heights of 24 bits; 8, 16 and 32 are known"),
+        ("arrays.npz", with(&with(&x3p, b"main.xml", b"main.npy"), b"main.xml", b"main.npy"), "NumPy's archives (.npz) are not in this version"),
         ("cut.x3p", x3p[..x3p.len() - 30].to_vec(), "its archive is not whole"),
         // Surface data files.
         ("cut.sdf", sdf[..700].to_vec(), "broken .sdf file, line"),

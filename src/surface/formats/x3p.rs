@@ -146,6 +146,15 @@ fn describe<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Description, 
         offset: 0,
         what: format!("{DESCRIPTION}: {what}"),
     };
+    if archive
+        .file_names()
+        .any(|name| name.is_ok_and(|name| name.ends_with(".npy")))
+    {
+        return Err(FileError::NotSupported {
+            what: "NumPy's archives (.npz)",
+            instead: "save one array as .npy by numpy.save",
+        });
+    }
     let Ok(entry) = archive.by_name(DESCRIPTION) else {
         return Err(wrong("is not in the archive, which is no .x3p".to_owned()));
     };
