@@ -111,7 +111,7 @@ pub(super) fn softening(problem: &Problem) -> f64 {
     (factor / strongest).min(MOST_SOFTENING)
 }
 
-/// That factor by law and grid, whatever the load; 0 where there is one sweep alone.
+/// That factor for the law alone, without a map of it; 0 where there is one sweep alone.
 fn own_softening(problem: &Problem) -> f64 {
     let law = problem.law;
     let falls = law.has_wall() && law.has_tail();

@@ -14,15 +14,15 @@ const BELOW: f64 = 1e-6;
 
 /// Which edges of the grid cut the surface off: the columns at both ends, the first row and the last.
 ///
-/// They are those to which it falls off, whose highest point is below the mean of the heights in the middle of the grid: a
-/// tip goes on behind them, and contact there lacks what the grid does not hold. A flat, a punch and a rough patch end at
-/// their edges, as a ridge does at its ends, and touch there by right. Of one sphere every edge without its apex is such.
+/// An edge cuts the surface off if its highest point is below the mean of the heights in the middle of the grid: a tip continues
+/// beyond it, and contact at the edge lacks the part outside the grid. A flat, a punch and a rough patch end at their edges, as a
+/// ridge does at its ends, and may touch there. A single sphere is cut off at every edge except one with its apex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) struct CutEdges([bool; 4]);
 
 impl CutEdges {
-    /// Those of a surface, of which this process holds some rows.
-    pub fn of(surface: &Surface, share: &Share, boundary: Boundary) -> CutEdges {
+    /// The cut edges of a surface, of which this process holds some rows.
+    pub fn from_surface(surface: &Surface, share: &Share, boundary: Boundary) -> CutEdges {
         if boundary == Boundary::Periodic {
             return CutEdges([false; 4]);
         }
@@ -121,7 +121,7 @@ mod tests {
             warnings: Vec::new(),
         };
         let share = Share::whole(Shape::whole(nx, ny));
-        CutEdges::of(&surface, &share, Boundary::Free).0
+        CutEdges::from_surface(&surface, &share, Boundary::Free).0
     }
 
     #[test]

@@ -68,7 +68,7 @@ pub struct StepRow {
 }
 
 impl StepRow {
-    /// Whether there is a state: of a value that no contact can have there is none.
+    /// Whether the step has a solution; false for a prescribed value that no contact can have.
     #[cfg(feature = "images")]
     pub(crate) fn has_solution(&self) -> bool {
         self.converged || self.approach.is_some()

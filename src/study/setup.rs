@@ -52,7 +52,7 @@ impl Setup {
         let share = Problem::share(&grid, scene.grid.boundary, ranks);
         let heights = surface.heights.as_slice();
         let statistics = Statistics::of_share(&grid, &share, heights, scene.grid.boundary);
-        let cut_edges = CutEdges::of(&surface, &share, scene.grid.boundary);
+        let cut_edges = CutEdges::from_surface(&surface, &share, scene.grid.boundary);
         let outline = Outline {
             grid,
             moments: statistics.moments,

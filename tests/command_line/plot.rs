@@ -207,7 +207,7 @@ loading = { control = "pressure", path = ["1 MPa"] }
     assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
 }
 
-/// Heads with units are read as a force curve's are, and drawn in SI; a picture without a point is none.
+/// Column heads with units are read like those of force curves, and drawn in SI units; a plot without points is refused.
 fn units_of_heads_count_and_an_empty_picture_is_refused() {
     let place = tempfile::tempdir().expect("a folder");
     let path = place.path();
