@@ -83,6 +83,16 @@ impl Grid {
         self.ly / self.ny as f64
     }
 
+    /// The longer side of a pixel, m, which bounds what the grid resolves. Along an axis of one point nothing varies, so that
+    /// the length of its pixel does not count.
+    pub fn longer_pixel(&self) -> f64 {
+        match [self.nx, self.ny] {
+            [1, ny] if ny > 1 => self.dy(),
+            [nx, 1] if nx > 1 => self.dx(),
+            _ => self.dx().max(self.dy()),
+        }
+    }
+
     /// Area of one pixel, m^2.
     pub fn pixel_area(&self) -> f64 {
         self.dx() * self.dy()
@@ -131,5 +141,14 @@ mod tests {
         assert_eq!(grid.wavenumber_y(2), 4.0 * PI);
         assert_eq!(grid.wavenumber_y(3), -4.0 * PI);
         assert_eq!(grid.wavenumber(7, 0), PI);
+    }
+
+    #[test]
+    fn an_axis_of_one_point_has_no_part_in_the_resolution() {
+        let pixel = |points| Grid::new(points, [2.0, 3.0]).longer_pixel();
+        assert_eq!(pixel([4, 4]), 0.75);
+        assert_eq!(pixel([4, 1]), 0.5);
+        assert_eq!(pixel([1, 4]), 0.75);
+        assert_eq!(pixel([1, 1]), 3.0);
     }
 }

@@ -152,7 +152,7 @@ impl Setting {
             (Taper::Half, Range::Length(_)) => {
                 let pixel = scene.grid.size.map_or(0.0, |size| {
                     let grid = Grid::new(self.points, size);
-                    grid.dx().max(grid.dy())
+                    grid.longer_pixel()
                 });
                 let auto = AdhesionScene {
                     taper: None,
@@ -227,7 +227,7 @@ fn is_longer(scene: &Scene, adhesion: &AdhesionScene, points: [usize; 2]) -> boo
         taper: None,
         ..adhesion.clone()
     };
-    let pixel = grid.dx().max(grid.dy());
+    let pixel = grid.longer_pixel();
     let asked = resolve_law(&auto, pixel, scene.solid.contact_modulus, 1.0).range();
     asked > given * (1.0 + SAME_RANGE)
 }

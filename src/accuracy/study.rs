@@ -498,7 +498,7 @@ fn unbearable_load(scene: &Scene, grid: &Grid) -> Option<f64> {
         _ => 1.0,
     };
     // The finest grid, that of the reference, has the greatest tension if the range is "auto".
-    let pixel = 0.5 * grid.dx().max(grid.dy());
+    let pixel = 0.5 * grid.longer_pixel();
     let law = resolve_law(adhesion, pixel, scene.solid.contact_modulus, strongest);
     let tension = strongest * law.peak_tension();
     scene.loading.durations.is_none().then(|| -tension * area)

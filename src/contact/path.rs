@@ -13,7 +13,7 @@ use crate::run::memory_check;
 use crate::scene::{LoadingScene, Scene};
 use crate::study::{
     Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Planned, Setup, Walk, WalkError,
-    edge_warning,
+    step_warnings,
 };
 use crate::surface::Surface;
 
@@ -176,6 +176,7 @@ impl Course {
     fn solve(&mut self, contact: &Contact) -> Result<Solution, ContactError> {
         let (setup, device, walk) = (&self.setup, &self.device, lock(&mut self.walk));
         let mut last = LastStep {
+            setup,
             remarks: &mut self.remarks,
             watcher: contact.watcher.as_ref(),
             keeps_state: self.finished.is_some(),
@@ -233,6 +234,7 @@ fn check(scene: &Scene) -> Result<(), ContactError> {
 
 /// Keeps what the last step leaves.
 struct LastStep<'c> {
+    setup: &'c Setup,
     /// What the steps of the path have warned of.
     remarks: &'c mut Vec<String>,
     watcher: Option<&'c Watcher>,
@@ -247,8 +249,8 @@ impl Observer for LastStep<'_> {
     type Error = std::convert::Infallible;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), Self::Error> {
-        let warning = edge_warning(&step, self.remarks);
-        self.remarks.extend(warning);
+        let warnings = step_warnings(self.setup, &step, self.remarks);
+        self.remarks.extend(warnings);
         self.evaluation = step.evaluation;
         self.jump = step.jump;
         Ok(())

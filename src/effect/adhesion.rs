@@ -149,7 +149,7 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
 /// The warning for a sphere whose contact is only a few pixels wide at pull-off, whatever its cohesive zone.
 fn warning_of_small_contact(plan: &Plan, regime: Regime) -> Option<String> {
     let radius = plan.outline.sphere_radius?;
-    let pixel = plan.outline.grid.dx().max(plan.outline.grid.dy());
+    let pixel = plan.outline.grid.longer_pixel();
     let stiffness = 4.0 / 3.0 * plan.scene.solid.contact_modulus;
     // Maugis' unit of radius, in which a contact parts at 1.14 (JKR) to 0 (DMT).
     let unit =

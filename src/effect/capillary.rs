@@ -1,11 +1,16 @@
 //! `[capillary]`: a liquid that condenses between the surfaces pulls them together. The scene turns it
 //! into the cohesive law of its meniscus.
 
+use std::ops::RangeInclusive;
+
 use super::adhesion::{ATTRACTION, attraction, warnings_of_pixels};
 use crate::law::LEAST_KELVIN_RADIUS;
 use crate::scene::Scene;
 use crate::study::{Column, Evaluation, Hooks, Plan, Setup};
 use crate::units::format_si;
+
+/// Temperatures at which a liquid condenses from air, K.
+const TEMPERATURES: RangeInclusive<f64> = 200.0..=700.0;
 
 /// A liquid bridge in each narrow gap.
 pub(super) struct Capillary;
@@ -60,7 +65,22 @@ impl Hooks for Capillary {
                 format_si(LEAST_KELVIN_RADIUS, "m"),
             )
         });
-        dry.into_iter().chain(warnings_of_pixels(plan)).collect()
+        let odd = plan
+            .scene
+            .capillary
+            .as_ref()
+            .map(|liquid| liquid.temperature)
+            .filter(|temperature| !TEMPERATURES.contains(temperature));
+        let odd = odd.map(|temperature| {
+            format!(
+                "a temperature of {} at which a liquid condenses: was it meant in degrees Celsius? Add 273.15",
+                format_si(temperature, "K")
+            )
+        });
+        dry.into_iter()
+            .chain(odd)
+            .chain(warnings_of_pixels(plan))
+            .collect()
     }
 
     // The column is declared by `adhesion`, in whose place this effect is.

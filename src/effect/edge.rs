@@ -56,13 +56,15 @@ impl Edge {
     }
 
     /// Mean speed at which it recedes to become `later` within `duration` (s), m/s; 0 where the area
-    /// does not shrink. With the mean of the two lengths it is exact for a circle.
+    /// does not shrink, and where there is no edge: surfaces in full contact that let go everywhere at once do not peel. With
+    /// the mean of the two lengths it is exact for a circle.
     pub fn recession(&self, later: &Edge, duration: f64) -> f64 {
         let lost = self.area - later.area;
-        if lost <= 0.0 {
+        let length = 0.5 * (self.length + later.length);
+        if lost <= 0.0 || length <= 0.0 {
             return 0.0;
         }
-        lost / (0.5 * (self.length + later.length) * duration)
+        lost / (length * duration)
     }
 }
 
@@ -91,5 +93,10 @@ mod tests {
         let speed = large.recession(&small, 2.0);
         assert!((speed / 0.02 - 1.0).abs() < 0.03, "{speed}");
         assert_eq!(small.recession(&large, 2.0), 0.0);
+        let [all, none] = [true, false].map(|touches| {
+            let touches = vec![touches; grid.len()];
+            Edge::new(&touches, &share, &grid, Boundary::Periodic).expect("one process")
+        });
+        assert_eq!(all.recession(&none, 2.0), 0.0);
     }
 }

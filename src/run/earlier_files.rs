@@ -15,23 +15,15 @@ const PNG_END: &[u8] = b"\0\0\0\0IEND\xae\x42\x60\x82";
 /// Most files that a warning names.
 const NAMED: usize = 8;
 
-/// The warning of a step whose load has no equilibrium.
-pub(super) fn separated_words(step: usize) -> String {
-    format!(
-        "step {step} is separated: the load has no equilibrium, so there are no fields to write"
-    )
-}
-
 /// A warning of fields and pictures of the finished steps with these rows that are not there or cut short; `None`
-/// where all are whole. `warnings` are those of the run so far; pictures are looked for if it `draws`.
+/// where all are whole. Pictures are looked for if the run `draws`.
 pub(super) fn lost(
     folder: &RunFolder,
     setup: &Setup,
     finished: &[StepRow],
-    warnings: &[String],
     draws: bool,
 ) -> Option<String> {
-    let found: Vec<PathBuf> = expected(folder, setup, finished, warnings, draws)
+    let found: Vec<PathBuf> = expected(folder, setup, finished, draws)
         .into_iter()
         .filter(|path| !is_whole(path))
         .collect();
@@ -53,25 +45,19 @@ pub(super) fn lost(
 }
 
 /// The files that finished steps have written.
-fn expected(
-    folder: &RunFolder,
-    setup: &Setup,
-    finished: &[StepRow],
-    warnings: &[String],
-    draws: bool,
-) -> Vec<PathBuf> {
+fn expected(folder: &RunFolder, setup: &Setup, finished: &[StepRow], draws: bool) -> Vec<PathBuf> {
     let output = &setup.scene.output;
     let is_over = Planned::after(setup, finished).is_none();
-    let finished = finished.len();
     let asked = |step: &usize| match &output.steps {
         StepChoice::All => true,
         StepChoice::List(list) => list.contains(step),
         // Those of an earlier end are cleared away when the run is resumed.
-        StepChoice::Last => is_over && *step == finished,
+        StepChoice::Last => is_over && *step == finished.len(),
     };
-    let has_fields = |step: &usize| !warnings.contains(&separated_words(*step));
+    // Without a position there is no state, and nothing was written.
+    let has_fields = |step: &usize| finished[*step - 1].approach.is_some();
     let mut paths = Vec::new();
-    for step in (1..=finished).filter(asked).filter(has_fields) {
+    for step in (1..=finished.len()).filter(asked).filter(has_fields) {
         paths.extend(
             output
                 .images

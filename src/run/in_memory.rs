@@ -13,7 +13,7 @@ use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::output::Seconds;
 use crate::scene::Scene;
-use crate::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, edge_warning, walk};
+use crate::study::{FinishedStep, Observer, Setup, WalkEnd, WalkError, step_warnings, walk};
 use crate::surface::Surface;
 
 /// Solves every step of a scene as [`run_with`](super::run_with) does, and writes nothing. Without a number of threads
@@ -72,7 +72,11 @@ fn walk_on_device(
 ) -> Result<WalkEnd, BackendError> {
     let steps = setup.scene.loading.path.len();
     observer.begins(steps, 0, setup.scene.solver.tolerance);
-    let mut steps = Steps { observer, warnings };
+    let mut steps = Steps {
+        setup,
+        observer,
+        warnings,
+    };
     let make_backend = || device.backend();
     let mut work = || walk(setup, &make_backend, &mut steps);
     let walked = match options.threads {
@@ -87,6 +91,7 @@ fn walk_on_device(
 
 /// Passes steps and iterations on.
 struct Steps<'a> {
+    setup: &'a Setup,
     observer: &'a mut dyn RunObserver,
     /// Warnings of the run.
     warnings: &'a mut Vec<String>,
@@ -96,7 +101,7 @@ impl Observer for Steps<'_> {
     type Error = Infallible;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), Infallible> {
-        if let Some(text) = edge_warning(&step, self.warnings) {
+        for text in step_warnings(self.setup, &step, self.warnings) {
             self.observer.warning(&text);
             self.warnings.push(text);
         }

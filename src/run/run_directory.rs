@@ -7,12 +7,13 @@ use std::path::Path;
 use crc32fast::Hasher;
 
 use super::earlier_files::lost;
+use crate::backend::Share;
 use crate::device::SelectedDevice;
 use crate::output::{
     Curve, CurveWriter, EMPTY_CHECKSUM, FRESH, OutputError, RunFolder, SavedState, StateFile,
     set_aside,
 };
-use crate::scene::{Precision, Scene};
+use crate::scene::{AdhesionMap, AdhesionScene, Precision, Scene};
 use crate::study::{Checkpoint, Column, Earlier, Planned, Setup};
 
 /// A folder ready to be written, and what is in it already.
@@ -35,31 +36,42 @@ pub(super) struct RunDirectory {
 ///
 /// Every rank takes part.
 pub(super) fn fingerprint(setup: &Setup) -> String {
-    let mut resolved = setup.scene.resolved_json();
+    let mut resolved = setup.scene.identity();
     if let Some(table) = resolved.as_object_mut() {
         table.remove("solver");
-        let mut checksum = Hasher::new();
-        for height in setup.surface.heights.iter() {
-            checksum.update(&height.to_le_bytes());
+        let share = &setup.problem.share;
+        let heights = checksum(&setup.surface.heights, share);
+        table.insert("checksum of the heights".to_owned(), heights.into());
+        let is_file = |law: &AdhesionScene| matches!(law.map, Some(AdhesionMap::File(_)));
+        if setup.scene.adhesion.as_ref().is_some_and(is_file)
+            && let Some(map) = &setup.surface.adhesion_map
+        {
+            let map = checksum(map, share);
+            table.insert("checksum of the adhesion map".to_owned(), map.into());
         }
-        let own = checksum.clone().finalize();
-        let bytes = size_of_val(setup.surface.heights.as_slice());
-        if let Some(all) = setup.problem.share.all([f64::from(own), bytes as f64]) {
-            let parts = all.chunks_exact(2);
-            checksum = parts.fold(Hasher::new(), |mut checksum, part| {
-                checksum.combine(&Hasher::new_with_initial_len(
-                    part[0] as u32,
-                    part[1] as u64,
-                ));
-                checksum
-            });
-        }
-        table.insert(
-            "checksum of the heights".to_owned(),
-            checksum.finalize().into(),
-        );
     }
     resolved.to_string()
+}
+
+/// Checksum of values over the grid, of which each process holds some rows.
+fn checksum(values: &[f64], share: &Share) -> u32 {
+    let mut own = Hasher::new();
+    for value in values {
+        own.update(&value.to_le_bytes());
+    }
+    let own = own.finalize();
+    let Some(all) = share.all([f64::from(own), size_of_val(values) as f64]) else {
+        return own;
+    };
+    let parts = all.chunks_exact(2);
+    let whole = parts.fold(Hasher::new(), |mut whole, part| {
+        whole.combine(&Hasher::new_with_initial_len(
+            part[0] as u32,
+            part[1] as u64,
+        ));
+        whole
+    });
+    whole.finalize()
 }
 
 /// `[solver]` as resolved.
@@ -292,7 +304,7 @@ fn resume_from(
         remarks.push(text.clone());
         warnings.push(text);
     }
-    let lost = lost(folder, setup, rows, &warnings, draws);
+    let lost = lost(folder, setup, rows, draws);
     warnings.extend(
         lost.iter()
             .filter(|text| !warnings.contains(text))

@@ -5,7 +5,6 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::RunObserver;
-use super::earlier_files::separated_words;
 use super::on_ranks::Ask;
 use super::run_directory::{RunDirectory, STATE, solver};
 use super::warnings::warnings_at_end;
@@ -22,7 +21,7 @@ use crate::scene::{Control, FieldName, Precision, StepChoice};
 #[cfg(feature = "images")]
 use crate::study::Planned;
 use crate::study::{
-    Checkpoint, Evaluation, FinishedStep, Observer, Search, Setup, StepRow, WalkEnd, edge_warning,
+    Checkpoint, Evaluation, FinishedStep, Observer, Search, Setup, StepRow, WalkEnd, step_warnings,
 };
 use crate::units::format_si;
 
@@ -30,6 +29,8 @@ use crate::units::format_si;
 const REFRESH: f64 = 2.0;
 /// A report is refreshed only after so many times what the last one took.
 const REFRESH_COST: f64 = 20.0;
+/// The end of the warning of a step that has no fields.
+const NO_FIELDS: &str = ", so there are no fields to write";
 
 /// Records the steps of one run in its folder.
 pub(super) struct RunRecorder<'a> {
@@ -156,14 +157,12 @@ impl<'a> RunRecorder<'a> {
     }
 
     fn warn_no_fields(&mut self, row: &StepRow) {
-        // An unreachable value ends the run, which says why.
-        self.warn(match row.converged {
-            true => separated_words(row.step),
-            false => format!(
-                "step {} has no solution, so there are no fields to write",
-                row.step
-            ),
-        });
+        let why = match row.converged {
+            true => "is separated: the load has no equilibrium",
+            // An unreachable value ends the run, which says why.
+            false => "has no solution",
+        };
+        self.warn(format!("step {} {why}{NO_FIELDS}", row.step));
     }
 
     /// Warnings of the scene and of the run.
@@ -181,7 +180,7 @@ impl<'a> RunRecorder<'a> {
             self.folder
                 .remove_steps(|step| only_last || step >= number)?;
         }
-        if let Some(text) = edge_warning(&step, &self.warnings) {
+        for text in step_warnings(self.setup, &step, &self.warnings) {
             self.warn(text);
         }
         let is_end = step.is_last;
@@ -197,6 +196,12 @@ impl<'a> RunRecorder<'a> {
                 // In case the path ends early.
                 let kept = evaluation.filter(|_| asked);
                 self.last = kept.map(|evaluation| (number, evaluation));
+            }
+            // Said of the first of them: a whole path may follow.
+            (StepChoice::All, None)
+                if asked && !self.warnings.iter().any(|text| text.ends_with(NO_FIELDS)) =>
+            {
+                self.warn_no_fields(step.row);
             }
             (StepChoice::All, Some(evaluation)) => self.write_fields(number, &evaluation)?,
             (StepChoice::List(list), Some(evaluation)) if list.contains(&number) => {

@@ -43,6 +43,27 @@ impl Scene {
         add("output", Some(json!(self.output)));
         Value::Object(scene)
     }
+
+    /// What identifies a scene wherever it is read from: as resolved, with the names of files in place of their paths, which
+    /// depend on the folder of the call. What the files hold is to be compared beside it.
+    pub(crate) fn identity(&self) -> Value {
+        let mut scene = self.resolved_json();
+        let name_alone = |value: &mut Value| {
+            let name = value.as_str().map(Path::new).and_then(Path::file_name);
+            if let Some(name) = name.map(|name| name.to_string_lossy().into_owned()) {
+                *value = name.into();
+            }
+        };
+        if let Some(map) = scene.pointer_mut("/adhesion/map") {
+            name_alone(map);
+        }
+        for part in scene["surface"].as_array_mut().into_iter().flatten() {
+            if let Some(path) = part.get_mut("path") {
+                name_alone(path);
+            }
+        }
+        scene
+    }
 }
 
 /// Adds a key if it has a value.

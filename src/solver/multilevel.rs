@@ -120,7 +120,7 @@ fn own_softening(problem: &Problem) -> f64 {
         return 0.0;
     }
     // E* in reduced units is the unit of lengths along the surface.
-    let pixel = problem.grid.dx().max(problem.grid.dy()) / problem.scales.lateral;
+    let pixel = problem.grid.longer_pixel() / problem.scales.lateral;
     let factor = SOFTENED / (pixel * law.steepest_fall());
     if factor < LEAST_SOFTENING {
         return 0.0;

@@ -264,6 +264,23 @@ impl<'s> Controller<'s> {
         }
     }
 
+    /// By how much the net pressures of a state at a position, whose force this is (N), miss what the path prescribes, in its
+    /// unit: the load, or the position of the far end of a spring, a layer or a free half-space.
+    ///
+    /// The residual bounds the imbalance of points against their pressures. Where these are far larger than their mean, as
+    /// the tension of a short-ranged law is, all points may be within the tolerance, and their sum not at the load.
+    pub fn missed(&self, position: &Position, force: f64) -> f64 {
+        let missed = force / self.solved_area() - position.mean_pressure;
+        match self.control {
+            Control::Force => missed * self.solved_area(),
+            Control::Pressure => missed,
+            Control::Approach => self.approach_stiffness().map_or(0.0, |stiffness| {
+                missed / self.problem.scales.pressure / stiffness * self.problem.scales.length
+            }),
+            Control::MeanGap => 0.0,
+        }
+    }
+
     /// u - g - h of a state, reduced: on a periodic grid what the mean displacement leaves, the rigid
     /// offset on a free one.
     pub fn offset(&self, position: &Position, mean_displacement: f64) -> f64 {

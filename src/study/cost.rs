@@ -103,7 +103,7 @@ impl Cost {
         grid: Grid,
         place: Place,
     ) -> Result<Cost, BackendError> {
-        let pixel = grid.dx().max(grid.dy());
+        let pixel = grid.longer_pixel();
         let law = effects.solved_law(law_of(scene, pixel, 1.0));
         let modulus = scene.solid.contact_modulus;
         let problem = Problem::sketch(grid, scene.grid.boundary, modulus, law);
@@ -208,7 +208,7 @@ fn plan(
     let transforms = iterated.transforms() - started.transforms();
     let resting = iterated.released_bytes();
     // The scene's own law: the one that is solved for may leave the attraction out.
-    let law = law_of(scene, problem.grid.dx().max(problem.grid.dy()), 1.0);
+    let law = law_of(scene, problem.grid.longer_pixel(), 1.0);
     Ok(Cost {
         place,
         fields: iterated.fields,

@@ -93,13 +93,13 @@ const CONTACT: &str = "the contact reaches the edge of the free grid, behind whi
 const ATTRACTION: &str = "the attraction reaches the edge of the free grid, and what would act behind it is missing in the force; take a larger grid.size with more points, or a larger map";
 
 /// The warning of a step that reaches an edge where the surface is cut off, unless those `said` have it or a stronger one.
-pub fn edge_warning(step: &FinishedStep, said: &[String]) -> Option<String> {
+pub(super) fn edge_warning(step: &FinishedStep, said: &[String]) -> Option<&'static str> {
     let (words, at_least): (_, &[&str]) = match step.evaluation.as_ref()?.at_cut_edge? {
         PointState::Contact => (CONTACT, &[CONTACT]),
         _ => (ATTRACTION, &[CONTACT, ATTRACTION]),
     };
     let known = |text: &String| at_least.iter().any(|words| text.ends_with(words));
-    (!said.iter().any(known)).then(|| format!("step {}: {words}", step.row.step))
+    (!said.iter().any(known)).then_some(words)
 }
 
 #[cfg(test)]

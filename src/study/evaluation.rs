@@ -56,6 +56,9 @@ pub struct Evaluation {
     pub state: State,
     /// Of the edges that cut a surface off, what is closest there: contact or attraction.
     pub at_cut_edge: Option<PointState>,
+    /// By how much the pressures miss the prescribed load, N or Pa, or the position that a spring holds, m; see
+    /// [`Controller::missed`].
+    pub missed: f64,
     /// Depth by which plastic indentation has lowered the heights, this step included, m, shape
     /// `[ny, nx]`; empty for an elastic solid.
     pub plastic_depth: Vec<f64>,
@@ -249,6 +252,10 @@ impl Evaluation {
         };
         let force = share.surface_sum_by(&pressure, |p| p) * problem.grid.pixel_area();
         share.failed()?;
+        let missed = match setup.sums_attraction() {
+            true => 0.0,
+            false => controller.missed(&position, force),
+        };
         Ok(Evaluation {
             gap,
             pressure,
@@ -263,6 +270,7 @@ impl Evaluation {
             adhesive_energy: adhesive * energy_unit,
             state,
             at_cut_edge,
+            missed,
             plastic_depth,
         })
     }

@@ -24,6 +24,7 @@ mod row;
 mod setup;
 mod start;
 mod step;
+mod step_warnings;
 mod walker;
 
 pub(crate) use across::held_across;
@@ -31,7 +32,6 @@ pub use across::{attraction_across, greatest_across};
 pub use between::Search;
 pub use checkpoint::{Checkpoint, CheckpointField, Earlier};
 pub use cost::Cost;
-pub use cut_edges::edge_warning;
 pub use evaluation::{Evaluation, PointState, Solved};
 pub use hooks::HostBytes;
 pub use jumps::{Jump, dissipation};
@@ -46,6 +46,7 @@ pub use pull_off::{PullOff, Tension};
 pub use regime::{AUTO_TAPER, Regime, resolve_law};
 pub use row::{Column, State, StepRow};
 pub use setup::Setup;
+pub use step_warnings::step_warnings;
 
 pub(crate) use attempt::Attempt;
 pub(crate) use hooks::{Carry, Effects, Hooks, Sizes};

@@ -38,7 +38,7 @@ impl Plan {
     /// Puts a scene and the outline of its surface together, with those of a list of effects that the
     /// scene asks for.
     pub(crate) fn with_effects(all: &[&'static dyn Hooks], scene: Scene, outline: Outline) -> Plan {
-        let pixel = outline.grid.dx().max(outline.grid.dy());
+        let pixel = outline.grid.longer_pixel();
         let strongest = outline.map.map_or(1.0, |map| map.largest);
         let law = law_of(&scene, pixel, strongest);
         let regime = Regime::new(law, scene.solid.contact_modulus, &outline);
@@ -101,7 +101,7 @@ impl Plan {
 
     /// Pixels across the shortest wave that the scene names, along the longer pixel side.
     pub fn pixels_a_wave(&self) -> Option<f64> {
-        let pixel = self.outline.grid.dx().max(self.outline.grid.dy());
+        let pixel = self.outline.grid.longer_pixel();
         self.scene
             .surfaces
             .iter()

@@ -9,6 +9,8 @@ const WORK: f64 = 10.0;
 const SIDE: f64 = 10.0;
 /// Radius of a tip on a cantilever, m, which no probe comes near to.
 const TIP: f64 = 1.0;
+/// Least contact modulus, Pa: the softest gels have tens. A scene in reduced units has some 1.
+const MODULUS: f64 = 0.5;
 /// Largest rms slope: steeper than 84 degrees.
 const SLOPE: f64 = 10.0;
 
@@ -23,11 +25,18 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
         .sphere_radius
         .filter(|_| plan.effects.spring(scene).is_some());
     let slope = plan.outline.moments.rms_slope();
+    let modulus = scene.solid.contact_modulus;
     let mut found = Vec::new();
     if let Some(work) = work.filter(|work| *work > WORK) {
         found.push(format!(
             "a work of adhesion of {} is more than solids have: was it meant in mJ/m^2?",
             format_si(work, "J/m^2")
+        ));
+    }
+    if modulus < MODULUS {
+        found.push(format!(
+            "a contact modulus of {} is less than solids have: was it meant in MPa or GPa?",
+            format_si(modulus, "Pa")
         ));
     }
     if side > SIDE {

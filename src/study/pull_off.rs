@@ -6,7 +6,7 @@
 
 use super::between::{Between, Place, Search};
 use super::observer::WalkEnd;
-use super::row::State;
+use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::walker::Carried;
 use crate::backend::BackendError;
@@ -72,8 +72,8 @@ impl Tension {
             return Tension::None;
         };
         let (step, force) = (row.step, held);
-        let is_last = end.rows.last().is_some_and(|last| last.step == step);
-        match is_load(loading) || (is_last && row.state != State::Separated) {
+        let recedes = row.state == State::Separated || recede(&end.rows[step - 1..]);
+        match is_load(loading) || !recedes {
             true => Tension::Holds { step, force },
             false => Tension::Passed { step, force },
         }
@@ -104,6 +104,14 @@ impl Tension {
             _ => None,
         }
     }
+}
+
+/// Whether the surfaces part on the way through these steps.
+fn recede(rows: &[StepRow]) -> bool {
+    let parts = |[before, after]: &[StepRow; 2]| {
+        after.state == State::Separated || after.mean_gap > before.mean_gap
+    };
+    rows.array_windows().any(parts)
 }
 
 fn is_load(loading: &LoadingScene) -> bool {

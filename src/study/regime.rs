@@ -69,7 +69,7 @@ impl Regime {
 
     /// The regime of a law on a surface; `None` of one that does not attract.
     pub(super) fn new(law: Law, modulus: f64, outline: &Outline) -> Option<Regime> {
-        let pixel = outline.grid.dx().max(outline.grid.dy());
+        let pixel = outline.grid.longer_pixel();
         let strongest = outline.map.map_or(1.0, |map| map.largest);
         law.is_adhesive().then(|| {
             let curvature = outline.moments.rms_curvature();

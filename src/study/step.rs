@@ -68,24 +68,38 @@ fn keeps_gap(solver: &ContactSolver, load: &Load, gap: &[f64]) -> bool {
     (mean - target).abs() <= MISSED.max(MISSED_ROUNDINGS * solver.epsilon()) * scale
 }
 
-/// Solves with the scene's own settings. A sharp law begins with careful steps from the state of the last
+/// Share of the range of a path by which a load or a position may be missed: less than a curve shows.
+const MISSED_OF_RANGE: f64 = 0.01;
+
+/// Whether the pressures of a state miss the prescribed value by more than a curve hides.
+pub(super) fn misses(setup: &Setup, evaluation: &Evaluation) -> bool {
+    let values = setup.scene.loading.path.iter();
+    let (least, greatest) = values.fold((0.0, 0.0), |(least, greatest): (f64, f64), value| {
+        (least.min(*value), greatest.max(*value))
+    });
+    let range = greatest - least;
+    range > 0.0 && evaluation.missed.abs() > MISSED_OF_RANGE * range
+}
+
+/// Solves to a tolerance. A sharp law begins with careful steps from the state of the last
 /// solved step.
+#[allow(clippy::too_many_arguments)]
 pub(super) fn solve(
-    setup: &Setup,
     solver: &mut ContactSolver,
     load: &Load,
     start: &Start,
+    tolerance: f64,
+    max_iterations: usize,
     make_backend: MakeBackend,
     watch: &mut dyn FnMut(&Scalars) -> bool,
 ) -> Result<Outcome, BackendError> {
     let sharp = matches!(solver.problem().law, Law::MaugisDugdale(law) if law.taper == 0.0);
     let careful = sharp && *start != Start::Cold;
-    let settings = &setup.scene.solver;
     solver.solve(
         load,
         start,
-        settings.tolerance,
-        settings.max_iterations,
+        tolerance,
+        max_iterations,
         careful,
         make_backend,
         watch,

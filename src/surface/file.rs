@@ -8,7 +8,7 @@ use super::{MOST_POINTS, detrend, fill, formats, prepare, resample};
 use crate::backend::{BackendError, Shape, Share};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Detrend, Edges, Fill, HeightFileScene};
-use crate::units::in_range;
+use crate::units::{format_si, in_range};
 
 /// Relative difference up to which two sizes agree: files store few digits.
 const SIZE_MARGIN: f64 = 1e-3;
@@ -90,6 +90,28 @@ impl HeightMap {
             }
             _ => Ok(()),
         }
+    }
+}
+
+/// Width of a pixel over its length, or the inverse, above which a map that does not say its size is taken for stretched.
+const STRETCHED: f64 = 1.02;
+
+impl HeightMap {
+    /// A warning that a grid of equal sides makes the pixels of a map oblong which does not say its size.
+    pub(super) fn stretch(&self, grid: &Grid) -> Option<String> {
+        let [dx, dy] = [grid.dx(), grid.dy()];
+        let is_oblong = grid.nx > 1 && grid.ny > 1 && dx.max(dy) > STRETCHED * dx.min(dy);
+        // Two sides are given because they differ.
+        (self.size.is_none() && grid.lx == grid.ly && is_oblong).then(|| {
+            let [columns, rows] = self.points;
+            format!(
+                "the file does not say its size, and that of the grid makes the pixels of its {columns} x {rows} points {} x {}; if they are square, the size is {} x {}",
+                format_si(dx, "m"),
+                format_si(dy, "m"),
+                format_si(grid.lx, "m"),
+                format_si(grid.lx * rows as f64 / columns as f64, "m"),
+            )
+        })
     }
 }
 

@@ -53,7 +53,7 @@ use std::sync::Arc;
 use crate::backend::Share;
 use crate::backend::ranks::Ranks;
 use crate::grid::Grid;
-use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
+use crate::scene::{Boundary, GridScene, HeightFileScene, Scene, SelfAffineScene, SurfacePart};
 use crate::shared_values::SharedValues;
 use crate::solver::Problem;
 use crate::units::{LARGEST, in_range};
@@ -137,7 +137,7 @@ impl Surface {
         let mut maps = read_maps(scene, parts, share)?;
         let grid = resolve_grid(scene, &maps)?;
         let share = share(&grid);
-        let mut warnings = Vec::new();
+        let mut warnings = outline::shared_seeds(parts);
         let heights = match parts {
             // An array alone is the sum of the parts as it stands.
             [SurfacePart::Heights(array)] if share.is_whole() => {
@@ -301,7 +301,13 @@ fn sum_of(
         match maps[index].take() {
             Some(map) => {
                 add(&mut heights, &map.heights);
-                found = map.warnings;
+                let keeps_pixels = |file: &HeightFileScene| {
+                    !file.preparation.profile && file.preparation.resample.is_none()
+                };
+                if matches!(part, SurfacePart::File(file) if keeps_pixels(file)) {
+                    found.extend(map.stretch(grid));
+                }
+                found.extend(map.warnings);
             }
             None => add_part(&mut heights, part, grid, share, boundary, &mut found)
                 .map_err(|problem| part_error(index, problem))?,

@@ -146,19 +146,33 @@ impl Outline {
         let size = scene.grid.size.ok_or(SurfaceError::SizeMissing)?;
         let grid = Grid::new(points, size);
         let mut sums = [0.0; 3];
-        let mut warnings = Vec::new();
+        let mut warnings = shared_seeds(parts);
         let mut source = Source::Spectrum;
+        // Mean squares by seed: heights of one seed rise and fall together, and add by their roots.
+        let mut rough: Vec<(u64, [f64; 3])> = Vec::new();
         for (index, part) in parts.iter().enumerate() {
             let found = part_outline(part, &grid, scene.grid.boundary)
                 .map_err(|problem| part_error(index, problem))?;
-            for (sum, one) in sums.iter_mut().zip(found.mean_squares) {
-                *sum += one;
+            let seed = seed(part);
+            match rough.iter_mut().find(|(other, _)| Some(*other) == seed) {
+                Some((_, sums)) => {
+                    for (sum, one) in sums.iter_mut().zip(found.mean_squares) {
+                        *sum = (sum.sqrt() + one.sqrt()).powi(2);
+                    }
+                }
+                None => match seed {
+                    Some(seed) => rough.push((seed, found.mean_squares)),
+                    None => add_squares(&mut sums, found.mean_squares),
+                },
             }
             let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
             warnings.extend(found.warnings.into_iter().map(named));
             if found.source == Source::Estimate {
                 source = Source::Estimate;
             }
+        }
+        for (_, squares) in rough {
+            add_squares(&mut sums, squares);
         }
         let single = single_part(parts);
         let has_shape = parts.iter().any(|part| !matches!(part, SurfacePart::Flat));
@@ -211,6 +225,40 @@ impl Outline {
             warnings: surface.warnings.clone(),
         }
     }
+}
+
+fn add_squares(sums: &mut [f64; 3], squares: [f64; 3]) {
+    for (sum, square) in sums.iter_mut().zip(squares) {
+        *sum += square;
+    }
+}
+
+/// Seed of a part with random phases.
+fn seed(part: &SurfacePart) -> Option<u64> {
+    match part {
+        SurfacePart::SelfAffine(scene) => Some(scene.seed),
+        _ => None,
+    }
+}
+
+/// A warning of parts with random phases that have the seed of an earlier part.
+pub(super) fn shared_seeds(parts: &[SurfacePart]) -> Vec<String> {
+    let earlier = |index: usize| {
+        let own = seed(&parts[index])?;
+        parts[..index]
+            .iter()
+            .position(|part| seed(part) == Some(own))
+    };
+    let shared = (0..parts.len()).filter_map(|index| Some([earlier(index)?, index]));
+    shared
+        .map(|[first, second]| {
+            format!(
+                "[[surface]] {} has the seed of [[surface]] {}: their waves of one length are the same, and add up as those of one surface; give it another seed",
+                second + 1,
+                first + 1
+            )
+        })
+        .collect()
 }
 
 fn part_outline(

@@ -23,6 +23,7 @@ mod scenes;
 #[path = "../shared/mod.rs"]
 mod shared;
 mod shell;
+mod step_warnings;
 mod surface;
 mod sweep;
 mod theory;
@@ -51,6 +52,7 @@ fn main() -> ExitCode {
         run::tests(),
         scenes::tests(),
         shell::tests(),
+        step_warnings::tests(),
         surface::tests(),
         sweep::tests(),
         theory::tests(),

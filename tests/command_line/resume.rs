@@ -333,6 +333,43 @@ fn a_height_map_that_changed_is_another_scene() {
     );
 }
 
+fn an_adhesion_map_that_changed_is_another_scene() {
+    let text = ROUGH.replace("range = \"10 nm\"", "range = \"10 nm\"\nmap = \"map.txt\"");
+    let folder = scene(&text);
+    let folder = folder.path();
+    let map = |factor: &str| {
+        let row = [factor; 64].join(" ");
+        fs::write(folder.join("map.txt"), [&row[..]; 48].join("\n")).expect("the map is written");
+    };
+    map("1");
+    run_whole(folder, &[]);
+    resume(folder, "whole", &[]);
+    map("1.5");
+    let output = tabor(folder, &["run", "scene.toml", "--out", "whole", "--resume"]);
+    let said = errors(&output);
+    assert_eq!(status(&output), 2, "{said}");
+    assert!(said.contains("checksum of the adhesion map"), "{said}");
+}
+
+/// A wall bears no tension: the second step has no fields, and none are missed.
+fn steps_without_fields_are_not_taken_for_lost() {
+    let folder = scene(
+        "[grid]\npoints = 16\nsize = 1.0\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"wavy\"\namplitude = 0.01\nwavelength = 1.0\n[loading]\ncontrol = \"pressure\"\npath = [0.01, 0.0, -0.01, 0.02]\n[output]\nfields = [\"gap\"]\nsteps = \"all\"\n",
+    );
+    let folder = folder.path();
+    run_whole(folder, &[]);
+    let warnings = summary(&folder.join("whole"))["warnings"].to_string();
+    assert_eq!(warnings.matches("no fields to write").count(), 1);
+    let output = tabor(folder, &["run", "scene.toml", "--out", "whole", "--resume"]);
+    let said = errors(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    assert!(!said.contains("missing or cut short"), "{said}");
+    assert_eq!(
+        summary(&folder.join("whole"))["warnings"].to_string(),
+        warnings
+    );
+}
+
 #[cfg(unix)]
 fn a_folder_that_vanishes_ends_the_run() {
     let folder = scene(&long());
@@ -485,6 +522,8 @@ tests![
     an_unconverged_step_is_solved_again_and_the_solver_may_change_then_only,
     other_scenes_and_damaged_states_are_refused_with_reasons,
     a_height_map_that_changed_is_another_scene,
+    an_adhesion_map_that_changed_is_another_scene,
+    steps_without_fields_are_not_taken_for_lost,
     #[cfg(unix)]
     a_folder_that_vanishes_ends_the_run,
     a_file_where_a_folder_should_be_ends_the_run,

@@ -816,19 +816,24 @@ fn until_apart_pulls_in_finer_steps_until_the_surfaces_separate() {
 }
 
 fn implausible_quantities_are_warned_of_with_the_likely_slip() {
-    let (folder, _) = scene(LOOP);
-    let said = |set: &[&str]| {
+    let said_of = |text: &str, set: &[&str]| {
+        let (folder, _) = scene(text);
         let set = set.iter().flat_map(|set| ["--set", set]);
         let call: Vec<&str> = ["check", "scene.toml"].into_iter().chain(set).collect();
         let output = tabor(folder.path(), &call);
         assert_eq!(status(&output), 0, "{}", errors(&output));
         errors(&output)
     };
+    let said = |set: &[&str]| said_of(LOOP, set);
     assert!(!said(&[]).contains("was it meant"));
     for (set, warning) in [
         (
             &["adhesion.work_of_adhesion=50"][..],
             "a work of adhesion of 50 J/m^2 is more than solids have: was it meant in mJ/m^2?",
+        ),
+        (
+            &["solid.contact_modulus=\"50 mPa\""],
+            "a contact modulus of 50 mPa is less than solids have: was it meant in MPa or GPa?",
         ),
         (
             &["grid.size=60", "surface.0.radius=100"],
@@ -846,6 +851,16 @@ fn implausible_quantities_are_warned_of_with_the_likely_slip() {
         let told = said(set);
         assert!(told.contains(warning), "{warning} is missing in {told}");
     }
+    let (before, adhesion) = LOOP.split_once("[adhesion]").expect("adhesion");
+    let (_, behind) = adhesion.split_once("[loading]").expect("a path");
+    let damp = format!("{before}[capillary]\nhumidity = 0.9\n[loading]{behind}");
+    let told = said_of(&damp, &["capillary.temperature=25"]);
+    assert!(
+        told.contains(
+            "a temperature of 25 K at which a liquid condenses: was it meant in degrees Celsius?"
+        ),
+        "{told}"
+    );
 }
 
 /// A punch with flat pillars has no curvature, so no Tabor number; what a model of it leaves out is said.

@@ -3,7 +3,7 @@
 use std::fs;
 use std::path::Path;
 
-use crate::shared::binary::{errors, tabor};
+use crate::shared::binary::{errors, scene, status, tabor};
 use crate::shared::trials::tests;
 
 /// Standard output of a call that ends well.
@@ -615,7 +615,64 @@ fn height_parameters_distribution_and_scales_of_a_sine() {
     );
 }
 
+/// Twice the waves of one seed are one surface of twice the height, not two surfaces.
+fn parts_of_one_seed_add_by_their_roots_and_are_warned_of() {
+    let part = |seed: &str| {
+        format!(
+            "[[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_height = \"20 nm\"\nlongest = \"5 um\"\nrolloff = \"5 um\"\nshortest = \"1 um\"\n{seed}"
+        )
+    };
+    for (seed, height, is_warned) in [
+        ("", "rms height 40 nm", true),
+        ("seed = 2\n", "rms height 28.28 nm", false),
+    ] {
+        let folder = scene(&format!(
+            "[grid]\npoints = 64\nsize = \"10 um\"\n[solid]\ncontact_modulus = \"1 GPa\"\n{}{}[loading]\ncontrol = \"pressure\"\npath = [\"1 MPa\"]\n",
+            part(""),
+            part(seed)
+        ));
+        let checked = tabor(folder.path(), &["check", "scene.toml"]);
+        assert_eq!(status(&checked), 0, "{}", errors(&checked));
+        let text = String::from_utf8_lossy(&checked.stdout);
+        assert!(text.contains(height), "{height} is missing in {text}");
+        let words = "[[surface]] 2 has the seed of [[surface]] 1";
+        let measured = tabor(folder.path(), &["surface", "scene.toml", "--out", "out"]);
+        for output in [&checked, &measured] {
+            assert_eq!(
+                errors(output).contains(words),
+                is_warned,
+                "{}",
+                errors(output)
+            );
+        }
+        if is_warned {
+            let text = String::from_utf8_lossy(&measured.stdout);
+            assert!(text.contains("rms_height = 4e-8"), "{text}");
+        }
+    }
+}
+
+/// A map of 12 x 8 points that does not say its size, on a square.
+fn a_size_that_stretches_a_map_is_warned_of() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let row = "0 1 2 1 0 1 2 1 0 1 2 1\n";
+    fs::write(folder.path().join("map.txt"), row.repeat(8)).expect("the map is written");
+    let said = |size: &str| {
+        let call = ["surface", "map.txt", "--unit", "nm", "--size", size];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        errors(&output)
+    };
+    let words = "makes the pixels of its 12 x 8 points 1 µm x 1.5 µm; if they are square, the size is 12 µm x 8 µm";
+    let stretched = said("12 um");
+    assert!(stretched.contains(words), "{stretched}");
+    let square = said("12 um, 8 um");
+    assert!(!square.contains("pixels of its"), "{square}");
+}
+
 tests![
+    parts_of_one_seed_add_by_their_roots_and_are_warned_of,
+    a_size_that_stretches_a_map_is_warned_of,
     height_parameters_distribution_and_scales_of_a_sine,
     a_line_scan_is_refused_or_taken_as_a_profile,
     a_tilted_map_is_told,

@@ -103,4 +103,68 @@ fn an_advancing_edge_has_the_plain_law() {
     }
 }
 
-tests![pull_off_at_a_speed, an_advancing_edge_has_the_plain_law,];
+/// A closed cell that lets go everywhere at once has no edge that could recede: the plain law.
+fn full_contact_that_lets_go_at_once_has_no_edge() {
+    let curve = |rate: &str| {
+        solve_table(&format!(
+            "[grid]\npoints = 8\nsize = 1.0\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"flat\"\n[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 0.01\nrange = 0.1\n{rate}[loading]\ncontrol = \"mean-gap\"\nstart = 0.0\n[[loading.ramp]]\nto = 0.1\nsteps = 1\nduration = 1\n"
+        ))
+    };
+    let plain = curve("");
+    let rated = curve("rate = { reference_speed = 1.0, exponent = 0.5 }\n");
+    for (rated, plain) in rated.rows().zip(plain.rows()) {
+        assert_eq!((rated.force, rated.approach), (plain.force, plain.approach));
+        assert!(rated.converged);
+    }
+}
+
+/// A contact of a few pixels, parted at many times v*: the bracket of its factor is wide, and is narrowed all the same.
+fn a_fast_edge_of_few_pixels_converges() {
+    let solved = solve_table(
+        r#"
+        [grid]
+        points = [32, 1]
+        size = [4.716345760686151e-08, 2.3581728803430757e-08]
+        boundary = "free"
+        [solid]
+        contact_modulus = 4087676.0462057926
+        [[surface]]
+        kind = "sphere"
+        radius = 1.1876017963905377e-07
+        [adhesion]
+        law = "exponential"
+        work_of_adhesion = 7.195435592772976e-05
+        range = 5.851553270231713e-09
+        rate = { reference_speed = 2.291370099337138e-08, exponent = 1.0 }
+        [loading]
+        control = "force"
+        start = 5.195524031085084e-13
+        [[loading.ramp]]
+        to = -1.1099782013544263e-11
+        steps = 4
+        duration = 0.59627290691978
+        [[loading.ramp]]
+        to = -1.088951250613563e-11
+        steps = 1
+        duration = 0.004083142568559649
+        [[loading.ramp]]
+        hold = 7.288835397670586
+        steps = 2
+        [[loading.ramp]]
+        to = 0.0
+        steps = 4
+        duration = 0.0011428692608228704
+        "#,
+    );
+    assert_eq!(solved.rows().count(), 12);
+    for row in solved.rows() {
+        assert!(row.converged, "step {}: {:e}", row.step, row.residual);
+    }
+}
+
+tests![
+    full_contact_that_lets_go_at_once_has_no_edge,
+    a_fast_edge_of_few_pixels_converges,
+    pull_off_at_a_speed,
+    an_advancing_edge_has_the_plain_law,
+];

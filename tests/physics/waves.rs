@@ -75,6 +75,43 @@ fn westergaard() {
     }
 }
 
+/// A wall of tension along a line: the width that its cell is given changes neither the law of "auto" nor the curve.
+fn the_width_of_a_line_contact_is_of_no_account() {
+    let curve = |width: f64| {
+        solve_table(&format!(
+            r#"
+            [grid]
+            points = [128, 1]
+            size = [1.0, {width}]
+            [solid]
+            contact_modulus = 1.0
+            [[surface]]
+            kind = "wavy"
+            amplitude = 0.01
+            wavelength = [1.0, "inf"]
+            [adhesion]
+            law = "maugis-dugdale"
+            work_of_adhesion = 1e-5
+            range = "auto"
+            [loading]
+            control = "pressure"
+            path = [0.01, 0.0, -0.0005]
+            [solver]
+            tolerance = 1e-9
+            "#
+        ))
+    };
+    let [narrow, square, wide] = [1.0 / 1024.0, 1.0 / 128.0, 10.0].map(curve);
+    for ((narrow, square), wide) in narrow.rows().zip(square.rows()).zip(wide.rows()) {
+        for other in [narrow, wide] {
+            assert_eq!(other.contact_area_fraction, square.contact_area_fraction);
+            let [gap, expected] = [other, square].map(|row| row.mean_gap.unwrap());
+            // Sums over a row of another unit of length, and the tolerance.
+            assert!((gap - expected).abs() < 1e-7 * expected, "{gap} {expected}");
+        }
+    }
+}
+
 fn westergaard_pressure_profile() {
     let share: f64 = 0.3;
     let mean = PI * 0.01 * (0.5 * PI * share).sin().powi(2);
@@ -112,6 +149,7 @@ fn low_limit_of_the_two_dimensional_wave() {
 
 tests![
     westergaard,
+    the_width_of_a_line_contact_is_of_no_account,
     westergaard_pressure_profile,
     low_limit_of_the_two_dimensional_wave,
 ];

@@ -34,7 +34,7 @@ const MOST_SIDE: usize = 65536;
 pub(super) struct SurfaceArguments {
     /// A scene (.toml), or a file of heights
     source: PathBuf,
-    /// Size of the map, as "25 um" or "25 um, 12.5 um" (x, y)
+    /// Size of the map as it is measured, after crop and mirror, as "25 um" or "25 um, 12.5 um" (x, y)
     #[arg(long, value_name = "S", value_parser = size)]
     size: Option<[f64; 2]>,
     /// Folder for the pictures [default: the file's name with _surface, in the current folder]

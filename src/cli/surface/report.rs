@@ -314,7 +314,7 @@ impl<'a> Report<'a> {
             Boundary::Periodic => grid.lx.max(grid.ly),
             Boundary::Free => 0.5 * grid.lx.min(grid.ly),
         };
-        [longest, RELIABLE_PIXELS * grid.dx().max(grid.dy())]
+        [longest, RELIABLE_PIXELS * grid.longer_pixel()]
     }
 
     /// Distribution of heights, autocorrelation, and slope and curvature by distance: names, tables, and a figure.

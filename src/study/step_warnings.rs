@@ -1,0 +1,62 @@
+//! Warnings of what a step shows: contact at a cut edge, pressures that do not add up to the load, a contact too wide for the
+//! theory.
+
+use std::f64::consts::PI;
+
+use super::cut_edges::edge_warning;
+use super::observer::FinishedStep;
+use super::setup::Setup;
+use super::step::misses;
+use crate::scene::Control;
+use crate::units::format_si;
+
+/// Radius of contact over that of a sphere up to which nothing is said: there a sphere is 7 % further from the plane at its
+/// apex than the paraboloid of small slopes.
+const WIDE: f64 = 0.5;
+
+/// The warnings of a step, except those that were `said` of another one.
+pub fn step_warnings(setup: &Setup, step: &FinishedStep, said: &[String]) -> Vec<String> {
+    let others = [missed_value(setup, step), wide_contact(setup, step)];
+    let unsaid = |[_, words]: &[String; 2]| !said.iter().any(|text| text.ends_with(words));
+    let others = others.into_iter().flatten().filter(unsaid);
+    let edge = edge_warning(step, said).map(str::to_owned);
+    edge.into_iter()
+        .chain(others.map(|[here, words]| here + &words))
+        .map(|warning| format!("step {}: {warning}", step.row.step))
+        .collect()
+}
+
+/// That the pressures miss the prescribed value: by how much here, and the words for any step.
+fn missed_value(setup: &Setup, step: &FinishedStep) -> Option<[String; 2]> {
+    let evaluation = step.evaluation.as_ref()?;
+    // A step that has not converged says so by its residual.
+    if !step.row.converged || !misses(setup, evaluation) {
+        return None;
+    }
+    let (what, unit) = match setup.scene.loading.control {
+        Control::Pressure => ("mean pressure", "Pa"),
+        Control::Force => ("force", "N"),
+        Control::Approach | Control::MeanGap => ("approach", "m"),
+    };
+    Some([
+        format!(
+            "the pressures do not balance the prescribed {what}, by {}",
+            format_si(evaluation.missed.abs(), unit)
+        ),
+        "; each point is within the tolerance of the pressures, which are far larger than their mean: take a smaller solver.tolerance, and pixels that resolve the range of the law".to_owned(),
+    ])
+}
+
+/// That a sphere's contact is wide for a half-space: how wide here, and the words for any step.
+fn wide_contact(setup: &Setup, step: &FinishedStep) -> Option<[String; 2]> {
+    let sphere = setup.surface.sphere_radius?;
+    let area = step.row.contact_area_fraction * setup.surface.grid.area();
+    let share = (area / PI).sqrt() / sphere;
+    (share > WIDE).then(|| {
+        [
+            format!("the radius of contact is {share:.2} of that of the sphere"),
+            "; a half-space stands for a sphere where the contact is far narrower than the sphere"
+                .to_owned(),
+        ]
+    })
+}

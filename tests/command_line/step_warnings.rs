@@ -1,0 +1,90 @@
+//! Pressures that do not add up to the prescribed load, and contacts too wide for a half-space.
+
+use std::f64::consts::PI;
+
+use crate::shared::binary::{errors, number, scene, status, table, tabor};
+use crate::shared::trials::tests;
+
+/// A tension of 167 MPa within 0.3 nm: at a tolerance of 1e-4, a point of it may miss its balance by the force of the path.
+const SHORT_RANGED: &str = r#"
+grid = { points = 64, size = "2 um" }
+solid = { contact_modulus = "1 MPa" }
+surface = [{ kind = "sphere", radius = "1 um" }]
+adhesion = { law = "maugis-dugdale", work_of_adhesion = "50 mJ/m^2", range = "0.3 nm" }
+solver = { tolerance = 1e-4 }
+output = { images = [] }
+"#;
+
+/// The far end of the spring is at approach + force/spring. The tolerance is the hundredth of the path's range up to which
+/// nothing is solved again or warned of.
+fn a_spring_holds_the_position_of_its_far_end() {
+    let (spring, far_ends) = (0.01, [0.0, 100e-9, 200e-9, 100e-9, -200e-9]);
+    let folder = scene(&format!(
+        "loading = {{ control = \"approach\", spring = {spring}, path = {far_ends:?} }}\n{SHORT_RANGED}"
+    ));
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    assert!(!errors(&output).contains("do not balance"));
+    for (row, far_end) in table(&folder.path().join("out/curve.csv"))
+        .iter()
+        .zip(far_ends)
+    {
+        let number = |name| number(row, name).expect("a number");
+        let held = number("approach") + number("force") / spring;
+        assert!(
+            (held - far_end).abs() <= 0.01 * 400e-9,
+            "{held} at {far_end}"
+        );
+    }
+}
+
+/// The contact grows with the load, as it does at a tolerance that resolves the load.
+fn a_load_is_not_lost_in_the_tolerance_of_a_strong_law() {
+    let folder = scene(&format!(
+        "loading = {{ control = \"force\", path = [0.0, 1e-9, 5e-9] }}\n{SHORT_RANGED}"
+    ));
+    let approaches = ["1e-4", "1e-9"].map(|tolerance| {
+        let set = format!("solver.tolerance={tolerance}");
+        let call = [
+            "run",
+            "scene.toml",
+            "--out",
+            tolerance,
+            "--quiet",
+            "--set",
+            &set,
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let curve = table(&folder.path().join(tolerance).join("curve.csv"));
+        let last = curve.last().expect("a row");
+        number(last, "approach").expect("a number")
+    });
+    let [coarse, fine] = approaches;
+    // The force is within a hundredth of the last; the approach goes with its power of 2/3 or less.
+    assert!((coarse - fine).abs() <= 0.01 * fine, "{coarse} {fine}");
+}
+
+/// By Hertz, a^2 = R delta.
+fn a_contact_that_is_wide_for_its_sphere_is_warned_of_once() {
+    let folder = scene(
+        "grid = { points = 64, size = 4.0, boundary = \"free\" }\nsolid = { contact_modulus = 1.0 }\nsurface = [{ kind = \"sphere\", radius = 1.0 }]\nloading = { control = \"approach\", path = [0.2, 0.3, 0.4] }\noutput = { images = [] }\n",
+    );
+    let output = tabor(
+        folder.path(),
+        &["run", "scene.toml", "--out", "out", "--quiet"],
+    );
+    let said = errors(&output);
+    let curve = table(&folder.path().join("out/curve.csv"));
+    let area = number(&curve[1], "contact_area_fraction").expect("a share") * 16.0;
+    let ratio = (area / PI).sqrt();
+    let words = format!("step 2: the radius of contact is {ratio:.2} of that of the sphere");
+    assert!(said.contains(&words), "{words} is missing in {said}");
+    assert_eq!(said.matches("the radius of contact").count(), 1, "{said}");
+}
+
+tests![
+    a_spring_holds_the_position_of_its_far_end,
+    a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
+    a_contact_that_is_wide_for_its_sphere_is_warned_of_once,
+];
