@@ -20,7 +20,7 @@ const AGREE: f64 = 2e-3;
 /// the agreement.
 const MOST_SOLVES: usize = 60;
 /// Ratio of the ends of a bracket above which its logarithm is halved.
-const WIDE: f64 = 2.0;
+const WIDE: f64 = 100.0;
 /// Least distance of a trial from the ends of its bracket, as a share of the bracket.
 const CORNER: f64 = 0.05;
 

@@ -5,12 +5,16 @@ use super::setup::Setup;
 use super::step::{SolvedStep, finish, misses, solve};
 use crate::backend::BackendError;
 use crate::kernel::{Scalars, Status};
+use crate::law::imbalance;
 use crate::solver::{ContactSolver, Load, MakeBackend, Outcome, Problem, Start};
 
 /// Further solves of a state whose pressures do not add up to the load.
 const CLOSER: usize = 3;
 /// The tolerance of each over that of the one before.
 const CLOSER_BY: f64 = 0.01;
+
+/// Further starts of a solve that stalls.
+const FURTHER_STARTS: usize = 3;
 
 /// A step to be solved, with its solver.
 pub(crate) struct Attempt<'a> {
@@ -67,6 +71,7 @@ impl Attempt<'_> {
     /// Both, to a smaller tolerance where the pressures of a state within that of the scene do not add up to the load.
     pub fn solved(&mut self, load: &Load, start: &Start) -> Result<SolvedStep, BackendError> {
         let outcome = self.solve(load, start)?;
+        let outcome = self.go_on(load, outcome)?;
         let mut solved = self.finish(load, &outcome)?;
         let settings = &self.setup.scene.solver;
         let mut tolerance = settings.tolerance;
@@ -86,5 +91,47 @@ impl Attempt<'_> {
             solved = self.finish(load, &outcome)?;
         }
         Ok(solved)
+    }
+
+    /// Goes on with a solve that stalled, from a state that is nearer.
+    ///
+    /// All points of a direction move together, and the wall stops those that it would carry through. Where these are what the
+    /// direction descends by, as in a contact of four pixels at the tip of a cone, no length of it leads on. A step of each
+    /// point by itself always does.
+    fn go_on(&mut self, load: &Load, mut outcome: Outcome) -> Result<Outcome, BackendError> {
+        let settings = &self.setup.scene.solver;
+        for _ in 0..FURTHER_STARTS {
+            let is_open =
+                outcome.status == Status::Stalled && outcome.residual > settings.tolerance;
+            if !is_open || !self.problem.law.has_wall() || self.problem.hardness.is_some() {
+                break;
+            }
+            let nearer = self.moved_by_points(outcome.mean_pressure)?;
+            let left = settings.max_iterations.saturating_sub(outcome.iterations);
+            let before = outcome.iterations;
+            outcome = self.solve_to(settings.tolerance, left, load, &Start::Gap(nearer))?;
+            outcome.iterations += before;
+        }
+        Ok(outcome)
+    }
+
+    /// The gap after each point of the surface has moved by its own imbalance over the stiffness of the shortest wave, as far
+    /// as the wall lets it.
+    fn moved_by_points(&mut self, mean_pressure: f64) -> Result<Vec<f64>, BackendError> {
+        let problem = self.problem;
+        let stiffest = problem.stiffness_max();
+        let mut gap = self.solver.gap()?;
+        let elastic = self.solver.elastic_pressure()?;
+        let factors = self.solver.law_factor();
+        let (width, nx) = (problem.shape.points[0], problem.shape.surface[0]);
+        let rows = problem.share.surface_rows().len();
+        let places = (0..rows).flat_map(|row| row * width..row * width + nx);
+        for (point, place) in places.enumerate() {
+            let factor = factors.map_or(self.setup.law_factor(point), |factors| factors[point]);
+            let traction = factor * problem.law.traction(gap[place]);
+            let imbalance = imbalance(elastic[place] + mean_pressure, traction);
+            gap[place] = (gap[place] - imbalance / stiffest).max(0.0);
+        }
+        Ok(gap)
     }
 }

@@ -4,6 +4,7 @@ use std::process::ExitCode;
 
 mod bench;
 mod capillary;
+mod cone;
 mod conductance;
 mod controls;
 mod dmt;
@@ -41,6 +42,7 @@ fn main() -> ExitCode {
         hard_cases::tests(),
         hard_cases::extremes::tests(),
         capillary::tests(),
+        cone::tests(),
         conductance::tests(),
         controls::tests(),
         dmt::tests(),
