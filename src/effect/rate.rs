@@ -193,8 +193,14 @@ fn solve(
         }
         // Where pixels separate one by one no factor may agree; the edge waits for the next pixel.
         if !solved.converged || found.abs() <= AGREE * factor || narrow || solves == MOST_SOLVES {
+            let agrees = solves < MOST_SOLVES;
             return Ok(SolvedStep {
-                converged: solved.converged && solves < MOST_SOLVES,
+                converged: solved.converged && agrees,
+                // Each solve may have converged: what has not is the factor.
+                residual: match agrees {
+                    true => solved.residual,
+                    false => solved.residual.max(found.abs() / factor),
+                },
                 ..solved
             });
         }

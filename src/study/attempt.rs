@@ -6,7 +6,7 @@ use super::step::{SolvedStep, finish, misses, solve};
 use crate::backend::BackendError;
 use crate::kernel::{Scalars, Status};
 use crate::law::imbalance;
-use crate::solver::{ContactSolver, Load, MakeBackend, Outcome, Problem, Start};
+use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Outcome, Problem, Start};
 
 /// Further solves of a state whose pressures do not add up to the load.
 const CLOSER: usize = 3;
@@ -103,7 +103,8 @@ impl Attempt<'_> {
         for _ in 0..FURTHER_STARTS {
             let is_open =
                 outcome.status == Status::Stalled && outcome.residual > settings.tolerance;
-            if !is_open || !self.problem.law.has_wall() || self.problem.hardness.is_some() {
+            let is_held = matches!(load.hold, Hold::Gap(_)) || self.problem.hardness.is_some();
+            if !is_open || is_held || !self.problem.law.has_wall() {
                 break;
             }
             let nearer = self.moved_by_points(outcome.mean_pressure)?;

@@ -108,10 +108,8 @@ impl Tension {
 
 /// Whether the surfaces part on the way through these steps.
 fn recede(rows: &[StepRow]) -> bool {
-    let parts = |[before, after]: &[StepRow; 2]| {
-        after.state == State::Separated || after.mean_gap > before.mean_gap
-    };
-    rows.array_windows().any(parts)
+    rows.windows(2)
+        .any(|pair| pair[1].state == State::Separated || pair[1].mean_gap > pair[0].mean_gap)
 }
 
 fn is_load(loading: &LoadingScene) -> bool {

@@ -4,8 +4,8 @@ use std::process::ExitCode;
 
 mod bench;
 mod capillary;
-mod cone;
 mod conductance;
+mod cone;
 mod controls;
 mod dmt;
 mod energy;
