@@ -5,7 +5,6 @@
 
 use super::error::{TheoryError, finite, positive, within};
 use super::hertz;
-use super::roots::root;
 use super::tabor_map::Sphere;
 use std::f64::consts::PI;
 
@@ -66,18 +65,20 @@ pub fn reduced_radius_at_approach(approach: f64) -> Result<f64, TheoryError> {
         approach >= least && approach.is_finite(),
         "no less than that of the grip limit, -0.9086 in Maugis units",
     )?;
-    // A^2 = delta + (2/3) sqrt(6 A) and A < 3 + sqrt(delta) bound the root from above.
-    let above = 3.0 + approach.max(0.0).sqrt();
-    if approach == least {
-        return Ok(grip());
+    // With sqrt(A) = s + x, of which s is that of the fold, where the slope is 0: approach - least = x^2 (6 s^2 + 4 s x + x^2).
+    // All terms are positive, so that the root is below that of each alone, and Newton's method comes down to it.
+    let (s, beyond) = (grip().sqrt(), approach - least);
+    let [square, cube] = [6.0 * s * s, 4.0 * s];
+    let mut x = (beyond / square).sqrt().min(beyond.sqrt().sqrt());
+    loop {
+        let excess = x * x * (square + x * (cube + x)) - beyond;
+        let step = excess / (x * (2.0 * square + x * (3.0 * cube + 4.0 * x)));
+        // At the fold, and where rounding is left.
+        if step.is_nan() || step <= 2.0 * f64::EPSILON * x {
+            return Ok((s + x).powi(2));
+        }
+        x -= step;
     }
-    root(
-        "a JKR contact at this approach",
-        |a| reduced_approach(a) - approach,
-        grip(),
-        above,
-        1e-15,
-    )
 }
 
 /// Contact radius under `force` (N), at or above the pull-off force, m; the stable one.
@@ -187,6 +188,23 @@ pub fn from_measurement(
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_radius_is_found_from_its_approach() {
+        let fold = reduced_approach(grip());
+        assert!((reduced_radius_at_approach(fold).unwrap() / grip() - 1.0).abs() < 1e-15);
+        for exponent in -14..=100 {
+            let beyond = 10_f64.powi(exponent);
+            let radius = reduced_radius_at_approach(fold + beyond).unwrap();
+            let found = reduced_approach(radius);
+            let rounding = 8.0 * f64::EPSILON * (fold + beyond).abs().max(1.0);
+            assert!(
+                (found - (fold + beyond)).abs() <= rounding,
+                "{beyond:e}: {found:e}"
+            );
+            assert!(radius > grip());
+        }
+    }
 
     #[test]
     fn equilibrium_releases_the_work_of_adhesion() {
