@@ -45,6 +45,13 @@ def test_all_kinds_of_curves_are_the_same(tmp_path):
     assert len({fit.work_of_adhesion for fit in fits}) == 1
 
 
+def test_masked_points_are_missing():
+    approach, force = curve(5e-9)
+    junk = np.arange(200) % 10 == 0
+    masked = np.ma.array(np.where(junk, 1e-3, force), mask=junk)
+    assert tabor.fit((approach, masked), radius="10 um").work_of_adhesion == tabor.fit((approach[~junk], force[~junk]), radius="10 um").work_of_adhesion
+
+
 def test_advice():
     found = tabor.fit(curve(5e-9), radius="10 um", advise=True)
     assert set(found.advice["probabilities"]) == {"hertz", "dmt", "jkr", "maugis-dugdale", "none"}

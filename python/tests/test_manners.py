@@ -308,3 +308,48 @@ def test_seconds_of_a_step_are_real():
     begin = time.monotonic()
     step = contact().solve(pressure=1e6)
     assert 0 < step.seconds <= time.monotonic() - begin
+
+
+def test_what_is_masked_is_no_number():
+    force = np.ma.array([1e-9, 1e-6], mask=[False, True])
+    with pytest.raises(tabor.TheoryError, match="1 of 2 values are masked"):
+        tabor.theory.hertz.contact_radius("1 um", "1 GPa", force)
+    np.testing.assert_array_equal(
+        tabor.theory.hertz.contact_radius("1 um", "1 GPa", ["1 nN", 2e-9]),
+        tabor.theory.hertz.contact_radius("1 um", "1 GPa", [1e-9, 2e-9]),
+    )
+
+
+@pytest.mark.parametrize(
+    ("call", "words"),
+    [
+        (lambda contact: contact.path(pressure=b"1 MPa").__next__(), "pressure: b'1 MPa' is no number"),
+        (lambda contact: contact.solve(pressure=1e6 + 1j), "pressure: .* is no number"),
+        (lambda _: tabor.self_affine(16, 1e-6, rms_slope=0.1, shortest=1e-7, seed=2**63), "surface.0.seed: 9223372036854775808 is out of range"),
+        (lambda _: tabor.Contact(np.zeros((4, 4)), 1.0, contact_moduls=1.0), "contact_modulus is like contact_moduls"),
+        (lambda _: tabor.fit((np.arange(9.0), np.arange(9.0)), cone=70), "cone: 70 is not between 0 and pi/2 rad"),
+    ],
+)
+def test_mistakes_are_named(call, words):
+    contact = tabor.Contact(np.zeros((4, 4)), 1.0, contact_modulus=1e9)
+    with pytest.raises(tabor.TaborError, match=words):
+        call(contact)
+
+
+def test_a_scene_finds_its_files_from_elsewhere(tmp_path, monkeypatch):
+    # Another file of the same name lies where the process has gone.
+    for folder, height in ((tmp_path, 1e-9), (tmp_path / "elsewhere", 5e-9)):
+        folder.mkdir(exist_ok=True)
+        np.save(folder / "map.npy", np.eye(8) * height)
+    monkeypatch.chdir(tmp_path)
+    tables = {
+        "grid": {"size": "1 um"},
+        "solid": {"contact_modulus": "1 GPa"},
+        "surface": [{"kind": "file", "path": "map.npy"}],
+        "loading": {"control": "pressure", "path": ["1 MPa"]},
+    }
+    tabor.Scene(tables).write("scene.toml")
+    scenes = [tabor.Scene(tables), tabor.Scene.read("scene.toml")]
+    monkeypatch.chdir(tmp_path / "elsewhere")
+    assert [scene.heights().max() for scene in scenes] == [1e-9, 1e-9]
+    assert scenes[1].check() and scenes[1].path_of_file == tmp_path / "scene.toml"

@@ -124,7 +124,7 @@ fn report(
     let doubtful = doubtful.count();
     if doubtful > 0 {
         warn(&format!(
-            "{doubtful} finished cases have warnings: see the column message of runs.csv"
+            "finished cases with warnings: {doubtful}; see the column message of runs.csv"
         ));
     }
     if !arguments.quiet {

@@ -12,10 +12,11 @@ use crate::study::{
     Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, greatest_across, walk,
 };
 
-/// Number of mean gaps in the search for pull-off on retraction, and around its greatest tension.
+/// Number of mean gaps in the search for pull-off on retraction, and of those around its greatest tension, between its
+/// neighbours: 16 times finer.
 const RETRACTION_GAPS: usize = 32;
-const CLOSER: usize = 8;
-/// The retraction ends where the tension falls below this share of the greatest one.
+const CLOSER: usize = 32;
+/// The retraction goes on while the tension is above this share of the greatest one.
 const OVER: f64 = 0.3;
 
 /// Observes the state of each step and may end the path.
@@ -158,31 +159,42 @@ fn pull_off_by_retraction(
     // Beyond the highest summit by a few ranges no attraction is left.
     let statistics = comparison.setup.statistics;
     let far = statistics.highest - statistics.mean + 3.0 * comparison.setup.law.range();
-    let mut low = nearest.max(1e-3 * far);
-    let mut high = far.max(2.0 * low);
+    let first = nearest.max(1e-3 * far);
+    let step = (far.max(2.0 * first) - first) / RETRACTION_GAPS as f64;
+    let mut path: Vec<f64> = (0..=RETRACTION_GAPS)
+        .map(|i| first + step * i as f64)
+        .collect();
     let mut best: Option<State> = None;
-    for count in [RETRACTION_GAPS, CLOSER] {
-        let step = (high - low) / count as f64;
-        let path = (0..=count).map(|i| low + step * i as f64).collect();
+    for is_closer in [false, true] {
         let see = |state: State, _: &Evaluation, converged: bool| {
             let least = best.map_or(0.0, |best| best.mean_pressure);
             if converged && state.mean_pressure < least {
                 best = Some(state);
             }
-            Ok(state.mean_pressure <= OVER * least || least == 0.0)
+            // The tension may fall and rise again: once a few high summits are all that is left, nothing balances what
+            // they attract. It is past its greatest where all of the attraction is below that.
+            let attraction = state.adhesive_pressure.unwrap_or(0.0);
+            Ok(state.mean_pressure <= OVER * least || attraction >= -least || least == 0.0)
         };
         follow_path(
             comparison,
             make_backend,
             Control::MeanGap,
-            path,
+            path.clone(),
             adhesion.clone(),
             see,
         )?;
         let Some(gap) = best.and_then(|state| state.mean_gap) else {
             return Ok(None);
         };
-        (low, high) = ((gap - step).max(low), gap + step);
+        if is_closer {
+            break;
+        }
+        // The same way from the closest step: what still touches depends on what touched before.
+        let low = (gap - step).max(first);
+        let finer = (gap + step - low) / CLOSER as f64;
+        path.retain(|gap| *gap < low - 0.5 * step);
+        path.extend((0..=CLOSER).map(|i| low + finer * i as f64));
     }
     Ok(best)
 }

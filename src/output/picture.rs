@@ -13,7 +13,7 @@ use super::folder::write_within;
 use super::layout::{Contents, LONGEST_FIELD, Layout, Rect, tick_mark};
 use super::resample::{drawn_size, resample};
 use crate::grid::Grid;
-use crate::scene::{Control, FieldName};
+use crate::scene::{Control, FieldName, LoadingScene};
 use crate::units::format_si;
 
 /// The load of a step as a picture shows it.
@@ -37,6 +37,18 @@ impl Load {
             Control::MeanGap => ("mean gap", "m"),
         };
         Load { name, value, unit }
+    }
+
+    /// A `value` on the path of a scene: with a spring its far end is prescribed, not the approach of the body.
+    pub(crate) fn on_path(loading: &LoadingScene, value: f64) -> Load {
+        let load = Load::new(loading.control, value);
+        match loading.spring {
+            Some(_) => Load {
+                name: "base position",
+                ..load
+            },
+            None => load,
+        }
     }
 
     /// As in "mean pressure 10 MPa".
@@ -294,6 +306,24 @@ mod tests {
             let longer = image.width().max(image.height());
             assert!(longer <= LONGEST_SIDE, "{nx} x {ny} gives {longer}");
         }
+    }
+
+    #[test]
+    fn a_path_with_a_spring_is_that_of_its_far_end() {
+        let mut loading = LoadingScene {
+            control: Control::Approach,
+            path: vec![160e-9],
+            durations: None,
+            spring: None,
+            pull_off_tolerance: 0.01,
+            until_apart: false,
+        };
+        assert_eq!(Load::on_path(&loading, 160e-9).words(), "approach 160 nm");
+        loading.spring = Some(2.0);
+        assert_eq!(
+            Load::on_path(&loading, 160e-9).words(),
+            "base position 160 nm"
+        );
     }
 
     #[test]

@@ -377,7 +377,7 @@ impl<'a> RunRecorder<'a> {
                 title: setup.scene.title.as_deref(),
                 field,
                 step: Some(step),
-                load: value.map(|value| Load::new(loading.control, value)),
+                load: value.map(|value| Load::on_path(loading, value)),
                 grid: setup.surface.grid,
                 values: &[],
             };

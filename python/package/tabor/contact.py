@@ -192,28 +192,38 @@ class Contact(Scene):
         loading = loading or {"control": control, **instant}
         if spring is not None:
             loading = {**loading, "control": "approach", "spring": spring}
-        super().__init__(
-            {
-                "grid": grid,
-                "solid": {
-                    "contact_modulus": contact_modulus,
-                    "young_modulus": young_modulus,
-                    "poisson_ratio": poisson_ratio,
-                    "counter_young_modulus": counter_young_modulus,
-                    "counter_poisson_ratio": counter_poisson_ratio,
-                    "thickness": thickness,
-                    "base": base,
-                    "hardness": hardness,
-                    "relaxation": relaxation,
-                    **(solid or {}),
-                },
-                "surface": surface,
-                "adhesion": adhesion,
-                "loading": loading,
-                "solver": {"tolerance": tolerance, "max_iterations": max_iterations, "precision": precision, "backend": backend},
-                **tables,
+        scene = {
+            "grid": grid,
+            "solid": {
+                "contact_modulus": contact_modulus,
+                "young_modulus": young_modulus,
+                "poisson_ratio": poisson_ratio,
+                "counter_young_modulus": counter_young_modulus,
+                "counter_poisson_ratio": counter_poisson_ratio,
+                "thickness": thickness,
+                "base": base,
+                "hardness": hardness,
+                "relaxation": relaxation,
+                **(solid or {}),
             },
-            heights=values,
-            adhesion_map=adhesion_map,
-            threads=threads,
-        )
+            "surface": surface,
+            "adhesion": adhesion,
+            "loading": loading,
+            "solver": {"tolerance": tolerance, "max_iterations": max_iterations, "precision": precision, "backend": backend},
+            **tables,
+        }
+        try:
+            super().__init__(scene, heights=values, adhesion_map=adhesion_map, threads=threads)
+        except SceneError as error:
+            raise SceneError(f"{error}{_meant(tables, str(error))}") from None
+
+
+def _meant(tables: Mapping[str, Any], words: str) -> str:
+    """What to add to a message of a scene that does not know the name of a table: arguments of a contact like it."""
+    import difflib
+    import inspect
+
+    arguments = [name for name in inspect.signature(Contact).parameters if name != "tables"]
+    unknown = [name for name in tables if f"{name}: unknown key in the scene itself" in words]
+    near = [(name, difflib.get_close_matches(name, arguments, 1)) for name in unknown]
+    return "".join(f"\nof the arguments of a contact, {found[0]} is like {name}" for name, found in near if found)

@@ -160,6 +160,8 @@ def fit(
     if len(given) != 1:
         raise FitError("give one of radius, cone and pyramid")
     [(tip, size)] = given
+    if tip != "sphere" and not 0 < si(size, "angle", tip, FitError) < np.pi / 2:
+        raise FitError(f'{tip}: {size!r} is not between 0 and pi/2 rad; a text has its unit, such as "70 deg"')
     if advise and tip != "sphere":
         raise FitError("advise: only curves of spheres were learned from")
     path, text = _curve(curve)
@@ -185,6 +187,13 @@ def fit(
     return Fit(found, structured(list(csv.reader(io.StringIO(table)))), headline)
 
 
+def _unmasked(values: Any) -> npt.NDArray[Any]:
+    """The values of a column; what is masked is missing, as NaN."""
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        return np.where(values.mask, np.nan, np.asarray(values, dtype=np.float64))
+    return np.asarray(values)
+
+
 def _curve(curve: Any) -> tuple[str, str | None]:
     """The path of a curve, or the text of one in memory."""
     if isinstance(curve, (str, os.PathLike)):
@@ -201,7 +210,7 @@ def _curve(curve: Any) -> tuple[str, str | None]:
         table = {str(name): curve[name] for name in curve.columns}
     else:
         raise FitError(f"curve: a file, columns or arrays are expected, not {type(curve).__name__}")
-    arrays = {name: np.asarray(values) for name, values in table.items()}
+    arrays = {name: _unmasked(values) for name, values in table.items()}
     if len({array.shape for array in arrays.values()}) > 1 or any(array.ndim != 1 for array in arrays.values()):
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise FitError(f"curve: columns of one length are expected, not {shapes}")

@@ -34,7 +34,8 @@ def si(value: Any, dimension: str, argument: str, error: type[TaborError] = Scen
     if isinstance(value, str):
         return _tabor.quantity(value, dimension, argument)
     try:
-        if isinstance(value, (bool, np.bool_)):
+        # Python reads b"1" as a number, and NumPy drops an imaginary part.
+        if isinstance(value, (bool, np.bool_, bytes, bytearray, complex, np.complexfloating)):
             raise TypeError
         number = float(value)
     except (TypeError, ValueError, OverflowError):
@@ -44,11 +45,21 @@ def si(value: Any, dimension: str, argument: str, error: type[TaborError] = Scen
     return number
 
 
+def refuse_masked(values: Any, argument: str, error: type[TaborError] = SceneError) -> None:
+    """Refuses an array with masked values: what lies under a mask is no number of anybody's."""
+    if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
+        raise error(f"{argument}: {np.count_nonzero(values.mask)} of {values.size} values are masked; fill them first")
+
+
 def si_array(values: Any, dimension: str, argument: str, error: type[TaborError] = SceneError) -> npt.NDArray[np.float64]:
     """SI values of a number, a text, or an array or sequence of them."""
     if isinstance(values, str):
         return np.float64(_tabor.quantity(values, dimension, argument)) * np.ones(())
+    refuse_masked(values, argument, error)
     array = np.asarray(values)
+    if array.dtype.kind in "US" and not isinstance(values, np.ndarray):
+        # NumPy makes texts of the numbers beside a text, which then lack a unit.
+        array = np.asarray(values, dtype=object)
     if array.dtype.kind in "OUS":
         flat = [si(each, dimension, argument, error) for each in array.ravel().tolist()]
         return np.array(flat, dtype=np.float64).reshape(array.shape)

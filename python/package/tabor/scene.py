@@ -18,7 +18,7 @@ import numpy.typing as npt
 from . import _tabor
 from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
-from .quantities import Quantity, si
+from .quantities import Quantity, refuse_masked, si
 from .step import Step
 
 if TYPE_CHECKING:
@@ -29,6 +29,9 @@ Result = TypeVar("Result")
 
 #: As many as the command line takes.
 MOST_THREADS = 1024
+
+#: The greatest whole number that TOML holds.
+MOST_WHOLE = 2**63 - 1
 
 #: What a path may prescribe: the argument, the word of a scene, the dimension.
 CONTROLS = {
@@ -45,9 +48,7 @@ Loads: TypeAlias = Union[Quantity, Iterable[Quantity], npt.NDArray[Any]]
 
 def field(array: Any, argument: str) -> Array:
     """A two-dimensional array of float64 in C order, every number finite; the array itself where it is one."""
-    if isinstance(array, np.ma.MaskedArray) and np.any(array.mask):
-        masked = np.count_nonzero(array.mask)
-        raise SceneError(f"{argument}: {masked} of {array.size} values are masked; fill them first")
+    refuse_masked(array, argument)
     try:
         values = np.asarray(array)
     except ValueError as error:
@@ -83,6 +84,8 @@ def plain(value: Any, place: str = "") -> Any:
         value = os.fspath(value)
     if isinstance(value, float) and not math.isfinite(value):
         raise SceneError(f"{place}: {value} is no finite number")
+    if isinstance(value, int) and not isinstance(value, bool) and not -MOST_WHOLE <= value <= MOST_WHOLE:
+        raise SceneError(f"{place}: {value} is out of range; a whole number of a scene is at most 2^63 - 1")
     if isinstance(value, str) and not value.isascii():
         try:
             value.encode()
@@ -147,7 +150,7 @@ class Scene:
         adhesion_map: Any = None,
         threads: int | None = None,
     ) -> None:
-        self._begin((toml_text(tables), "scene", ".", []), heights, adhesion_map, threads)
+        self._begin((toml_text(tables), "scene", _here(), []), heights, adhesion_map, threads)
 
     def _begin(
         self,
@@ -190,9 +193,11 @@ class Scene:
             raise SceneError(f"{path}: cannot be read: {error}") from error
         scene = cls.__new__(cls)
         chosen = [
-            (key, value if isinstance(value, str) else json.dumps(plain(value))) for key, value in (overrides or {}).items()
+            (key, value if isinstance(value, str) else json.dumps(plain(value, key))) for key, value in (overrides or {}).items()
         ]
-        scene._begin((text, str(path), str(path.parent), chosen), None, None, threads, path)
+        # Files are read when they are asked for, perhaps from another working directory.
+        there = Path(_here()) / path
+        scene._begin((text, str(path), str(there.parent), chosen), None, None, threads, there)
         return scene
 
     @property
@@ -439,9 +444,17 @@ def _restore(cls: type[Scene], source: Any, heights: Any, adhesion_map: Any, thr
     return scene
 
 
+def _here() -> str:
+    """The working directory, where relative paths of files begin."""
+    try:
+        return os.getcwd()
+    except OSError:
+        return os.curdir
+
+
 def _is_one(values: Any) -> bool:
     """Whether this is one load, not many."""
-    return isinstance(values, str) or not hasattr(values, "__iter__") or (isinstance(values, np.ndarray) and values.ndim == 0)
+    return isinstance(values, (str, bytes, bytearray)) or not hasattr(values, "__iter__") or (isinstance(values, np.ndarray) and values.ndim == 0)
 
 
 def _control(**loads: Any) -> tuple[str, Any] | None:

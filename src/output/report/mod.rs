@@ -341,7 +341,7 @@ impl Report<'_> {
                 continue;
             }
             let load = Planned::of_step(self.setup, self.rows, *step)
-                .map(|value| format!(", {}", Load::new(loading.control, value).words()));
+                .map(|value| format!(", {}", Load::on_path(loading, value).words()));
             let words = format!("{field}, step {step}{}", load.unwrap_or_default());
             let [width, height] = png_size(&bytes).map_or([None; 2], |size| size.map(Some));
             let source = format!("data:image/png;base64,{}", STANDARD.encode(&bytes));

@@ -1,8 +1,9 @@
 """Closed forms and asperity models, over NumPy arrays.
 
 Every argument is a number in SI units, a text with a unit, or an array; arrays are broadcast against each other, and
-the loop over their elements runs in Rust. An element for which a theory has no state, such as a force beyond pull-off,
-is NaN; arguments out of range raise a `TheoryError`.
+the loop over their elements runs in Rust. An element for which a theory has no state, such as a force beyond pull-off in
+`maugis_dugdale.at_force`, is NaN. Arguments out of the range of a closed form, such as a force beyond pull-off in
+`jkr.contact_radius`, raise a `TheoryError`, which says the range and the element.
 
 >>> from tabor import theory
 >>> theory.jkr.pull_off_force("1 um", ["10 mJ/m^2", "50 mJ/m^2"])
