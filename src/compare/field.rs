@@ -190,7 +190,7 @@ fn pull_off_by_retraction(
         if is_closer {
             break;
         }
-        // The same way from the closest step: what still touches depends on what touched before.
+        // The same way from the closest step: the contact depends on its path.
         let low = (gap - step).max(first);
         let finer = (gap + step - low) / CLOSER as f64;
         path.retain(|gap| *gap < low - 0.5 * step);

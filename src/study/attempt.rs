@@ -71,7 +71,7 @@ impl Attempt<'_> {
     /// Both, to a smaller tolerance where the pressures of a state within that of the scene do not add up to the load.
     pub fn solved(&mut self, load: &Load, start: &Start) -> Result<SolvedStep, BackendError> {
         let outcome = self.solve(load, start)?;
-        let outcome = self.go_on(load, outcome)?;
+        let outcome = self.restart_stalled(load, outcome)?;
         let mut solved = self.finish(load, &outcome)?;
         let settings = &self.setup.scene.solver;
         let mut tolerance = settings.tolerance;
@@ -93,12 +93,16 @@ impl Attempt<'_> {
         Ok(solved)
     }
 
-    /// Goes on with a solve that stalled, from a state that is nearer.
+    /// Solves on from a nearer state where a solve has stalled.
     ///
     /// All points of a direction move together, and the wall stops those that it would carry through. Where these are what the
     /// direction descends by, as in a contact of four pixels at the tip of a cone, no length of it leads on. A step of each
     /// point by itself always does.
-    fn go_on(&mut self, load: &Load, mut outcome: Outcome) -> Result<Outcome, BackendError> {
+    fn restart_stalled(
+        &mut self,
+        load: &Load,
+        mut outcome: Outcome,
+    ) -> Result<Outcome, BackendError> {
         let settings = &self.setup.scene.solver;
         for _ in 0..FURTHER_STARTS {
             let is_open =

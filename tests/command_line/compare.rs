@@ -177,7 +177,7 @@ fn shapes_that_are_not_rough_are_refused_with_the_way_out() {
 }
 
 /// The tension of a rough surface falls as it is drawn off, and rises again once a few high summits are all that is left: the
-/// greatest is there, and beyond it nothing holds. What touches depends on what touched before, also where gaps are finer.
+/// greatest is there, and beyond it nothing holds. The contact depends on its path, also where gaps are finer.
 fn the_greatest_tension_is_found_behind_a_lesser_one_and_on_the_way_out() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene = "[grid]\npoints = 64\nsize = \"20 um\"\n[solid]\ncontact_modulus = \"100 MPa\"\n[[surface]]\nkind = \"self-affine\"\n\
