@@ -9,8 +9,10 @@ const WORK: f64 = 10.0;
 const SIDE: f64 = 10.0;
 /// Radius of a tip on a cantilever, m, which no probe comes near to.
 const TIP: f64 = 1.0;
-/// Least contact modulus, Pa: the softest gels have tens. A scene in reduced units has some 1.
-const MODULUS: f64 = 0.5;
+/// Least contact modulus, Pa: the softest gels have tens.
+const MODULUS: f64 = 1.0;
+/// Side of a map, m, from which on a scene is in reduced units, in which a modulus is about 1.
+const REDUCED: f64 = 0.01;
 /// Largest rms slope: steeper than 84 degrees.
 const SLOPE: f64 = 10.0;
 
@@ -33,7 +35,7 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
             format_si(work, "J/m^2")
         ));
     }
-    if modulus < MODULUS {
+    if modulus < MODULUS && side < REDUCED {
         found.push(format!(
             "a contact modulus of {} is less than solids have: was it meant in MPa or GPa?",
             format_si(modulus, "Pa")
