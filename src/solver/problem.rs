@@ -438,7 +438,14 @@ impl Problem {
         lines.flat_map(move |line| line[..nx].iter().copied())
     }
 
-    /// The same as a field of its own.
+    /// Places of the grid's points among all solved points, each of the held rows.
+    pub fn surface_places(&self) -> impl Iterator<Item = usize> + use<> {
+        let (width, nx) = (self.shape.points[0], self.shape.surface[0]);
+        let rows = self.share.surface_rows().len();
+        (0..rows).flat_map(move |row| row * width..row * width + nx)
+    }
+
+    /// The grid's values out of those over all solved points, as a field of its own.
     pub fn surface_part(&self, values: &[f64]) -> Vec<f64> {
         // Its length is known here, so that it does not grow into the memory of two.
         let mut part = Vec::with_capacity(self.share.surface_len());

@@ -128,10 +128,7 @@ impl Attempt<'_> {
         let mut gap = self.solver.gap()?;
         let elastic = self.solver.elastic_pressure()?;
         let factors = self.solver.law_factor();
-        let (width, nx) = (problem.shape.points[0], problem.shape.surface[0]);
-        let rows = problem.share.surface_rows().len();
-        let places = (0..rows).flat_map(|row| row * width..row * width + nx);
-        for (point, place) in places.enumerate() {
+        for (point, place) in problem.surface_places().enumerate() {
             let factor = factors.map_or(self.setup.law_factor(point), |factors| factors[point]);
             let traction = factor * problem.law.traction(gap[place]);
             let imbalance = imbalance(elastic[place] + mean_pressure, traction);

@@ -317,12 +317,7 @@ fn close_pressed(setup: &Setup, problem: &Problem, solved: &mut Solved, law: &La
         return;
     }
     let stiffest = problem.stiffness_max();
-    let (width, nx) = (problem.shape.points[0], problem.shape.surface[0]);
-    let rows = problem.share.surface_rows().len();
-    for (i, place) in (0..rows)
-        .flat_map(|row| row * width..row * width + nx)
-        .enumerate()
-    {
+    for (i, place) in problem.surface_places().enumerate() {
         let g = solved.gap[place];
         if g <= 0.0 {
             continue;
