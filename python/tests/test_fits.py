@@ -52,6 +52,13 @@ def test_masked_points_are_missing():
     assert tabor.fit((approach, masked), radius="10 um").work_of_adhesion == tabor.fit((approach[~junk], force[~junk]), radius="10 um").work_of_adhesion
 
 
+def test_a_share_may_be_in_per_cent():
+    widened = [tabor.fit(curve(), radius="10 um", spring_error=share) for share in (0.1, "10%", " 10 % ")]
+    alone = tabor.fit(curve(), radius="10 um")
+    assert len({found.work_of_adhesion.uncertainty for found in widened}) == 1
+    assert widened[0].work_of_adhesion.uncertainty > alone.work_of_adhesion.uncertainty
+
+
 def test_advice():
     found = tabor.fit(curve(5e-9), radius="10 um", advise=True)
     assert set(found.advice["probabilities"]) == {"hertz", "dmt", "jkr", "maugis-dugdale", "none"}
@@ -90,6 +97,8 @@ def test_pictures():
         (lambda: tabor.fit({"force": np.zeros(20)}, radius=1e-5), "approach"),
         (lambda: tabor.fit(3.0, radius=1e-5), "curve"),
         (lambda: tabor.fit("none.csv", radius=1e-5), "none.csv"),
+        (lambda: tabor.fit(curve(), radius=1e-5, spring_error=10), "spring_error: 10 must be a share"),
+        (lambda: tabor.fit(curve(), radius=1e-5, radius_error="ten %"), "radius_error"),
         (lambda: tabor.fit(curve(), radius=1e-5, columns=["depth=1"]), "columns"),
     ],
 )

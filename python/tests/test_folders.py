@@ -96,6 +96,13 @@ def test_models_are_compared(tmp_path):
     assert "compare" in found.tables and len(found["compare"]) > 0
 
 
+def test_a_path_that_begins_with_a_hyphen_is_no_option(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("-scene.toml").write_text(tabor.Scene(SCENE).to_toml())
+    found = tabor.compare("-scene.toml", "-x")
+    assert found.folder == Path("-x") and len(found["compare"]) > 0
+
+
 def test_a_study_of_a_wrong_scene_says_what_is_wrong(tmp_path):
     with pytest.raises(tabor.SceneError, match="did you mean"):
         tabor.compare({**SCENE, "gird": {}}, tmp_path / "compared")

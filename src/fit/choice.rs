@@ -143,12 +143,7 @@ pub fn fit_curve(
     let (least, greatest) = measured.extremes();
     let pressed = greatest.force > measured.baseline();
     // If the tension grows up to the closest point there may be attraction without contact.
-    let closest = measured
-        .approaches
-        .iter()
-        .copied()
-        .fold(f64::NEG_INFINITY, f64::max);
-    let grows = closest - least.approach < CLOSEST * measured.approach_span;
+    let grows = measured.closest() - least.approach < CLOSEST * measured.approach_span;
     let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
     if !pressed && (grows || uncertain) {
         return Err(FitError::NoCompression { path: name(path) });
@@ -456,6 +451,15 @@ fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
 
 /// Warnings about the numbers of a fit.
 fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
+    if let Some(radius) = measured.indenter.radius() {
+        let depth = measured.closest() - fit.parameters.approach_offset;
+        if depth > radius {
+            warnings.push(format!(
+                "the curve presses the sphere in by {:.3} of its radius, and the models hold for depths far below it; if the approach is not in m, name its unit in the header, as in approach [nm]",
+                depth / radius,
+            ));
+        }
+    }
     if !fit.converged {
         warnings.push(format!(
             "the fit of {} did not converge; its numbers are the best found",

@@ -87,6 +87,12 @@ impl Measured {
         }
     }
 
+    /// The greatest approach, m.
+    pub(super) fn closest(&self) -> f64 {
+        let approaches = self.approaches.iter().copied();
+        approaches.fold(f64::NEG_INFINITY, f64::max)
+    }
+
     /// The same curve without the points at which the approach is held.
     pub(super) fn without_holds(&self) -> Measured {
         let points = self.approaches.len();

@@ -101,7 +101,14 @@ pub fn contact_radius_at_approach(sphere: &Sphere, approach: f64) -> Result<f64,
         return hertz::contact_radius_at_approach(sphere, approach);
     }
     let scales = sphere.maugis_scales()?;
-    Ok(scales.radius * reduced_radius_at_approach(approach / scales.approach)?)
+    let reduced = approach / scales.approach;
+    within(
+        "approach",
+        approach,
+        approach.is_finite() && reduced >= reduced_approach(grip()),
+        "no less than that of the grip limit, -3/4 (pi^2 w^2 R/E*^2)^(1/3)",
+    )?;
+    Ok(scales.radius * reduced_radius_at_approach(reduced)?)
 }
 
 /// Approach of the equilibrium with a contact radius, m: `a^2/R - sqrt(2 pi a w/E*)`.
@@ -228,5 +235,20 @@ mod tests {
             assert!((stiffness(&sphere, a) / slope - 1.0).abs() < 1e-7);
         }
         assert!(contact_radius(&sphere, -2.4e-4).is_err());
+    }
+
+    #[test]
+    fn an_approach_beyond_the_grip_is_refused_in_its_own_units() {
+        let (radius, modulus, work) = (1e-3, 1e6, 0.05);
+        let sphere = Sphere::new(radius, modulus, work).unwrap();
+        // As the message says it.
+        let least = -0.75 * (PI * PI * work * work * radius / (modulus * modulus)).cbrt();
+        assert!(contact_radius_at_approach(&sphere, least * (1.0 - 1e-12)).is_ok());
+        let beyond = least * (1.0 + 1e-12);
+        let error = contact_radius_at_approach(&sphere, beyond).unwrap_err();
+        assert!(
+            error.to_string().contains(&format!("{beyond:e}")),
+            "{error}"
+        );
     }
 }

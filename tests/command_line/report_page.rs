@@ -441,8 +441,14 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
         let mut card = name.to_owned();
         card[..1].make_ascii_uppercase();
         let value = format_si(binary::number(&rows[1], column).expect("a value"), unit);
+        // The attraction at zero load has a card of its own.
+        let end = if column == "attractive_force" {
+            "<"
+        } else {
+            "; "
+        };
         for part in [
-            format!("<dt>{card}</dt><dd>{value}<small>at the largest contact, step 2; "),
+            format!("<dt>{card}</dt><dd>{value}<small>at the largest contact, step 2{end}"),
             format!("{name} against force"),
             format!(">{name}</th>"),
             format!("<td class=\"number\">{value}</td>"),

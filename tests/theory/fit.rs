@@ -200,6 +200,23 @@ fn the_model_is_that_of_the_tabor_number() {
 
 /// A force that is off everywhere is found where it is asked for.
 #[test]
+fn an_approach_in_another_unit_is_warned_of() {
+    let warned = |unit: f64| {
+        let mut samples = made(Model::Hertz, 1.0, 1e-3, 1);
+        for sample in &mut samples {
+            sample.approach *= unit;
+        }
+        let found = fitted(samples, RADIUS, FREE).warnings;
+        found
+            .iter()
+            .any(|warning| warning.contains("of its radius"))
+    };
+    assert!(!warned(1.0));
+    // Numbers in nm, taken as m.
+    assert!(warned(1e9));
+}
+
+#[test]
 fn a_baseline_is_found() {
     let mut samples = made(Model::Jkr, 1.0, 0.01, 5);
     for sample in &mut samples {

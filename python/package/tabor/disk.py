@@ -28,6 +28,17 @@ def toml_value(value: Any) -> str:
     return toml_text({"value": value}).partition("=")[2].strip()
 
 
+def operand(path: str | os.PathLike[str]) -> str:
+    """A path as an operand of the command line: one that begins with a hyphen is no option."""
+    text = str(os.fspath(path))
+    return os.path.join(os.curdir, text) if text.startswith("-") else text
+
+
+def out_word(folder: str | os.PathLike[str]) -> str:
+    """The folder of a study as a word of the command line."""
+    return f"--out={os.fspath(folder)}"
+
+
 @contextmanager
 def scene_on_disk(scene: Any) -> Iterator[tuple[str, list[str]]]:
     """The path of the file of a scene, and words for the values in place of the file's.
@@ -35,14 +46,14 @@ def scene_on_disk(scene: Any) -> Iterator[tuple[str, list[str]]]:
     A scene of arrays or of tables is written into a folder that goes with the call.
     """
     if isinstance(scene, (str, os.PathLike)):
-        yield str(os.fspath(scene)), []
+        yield operand(scene), []
         return
     scene = Scene(scene) if isinstance(scene, Mapping) else scene
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: a file, a Scene, a Contact or tables are expected, not {type(scene).__name__}")
     words = set_words(dict(scene._overrides))
     if scene.path_of_file is not None and not scene.has_arrays:
-        yield os.fspath(scene.path_of_file), words
+        yield operand(scene.path_of_file), words
         return
     import tempfile
 

@@ -135,8 +135,8 @@ def fit(
         Deflection per volt, m/V.
     spring : number or text, optional
         Spring constant of the cantilever, N/m.
-    spring_error, radius_error : float
-        Relative standard deviations.
+    spring_error, radius_error : number or text
+        Relative standard deviations, such as 0.1 or "10%".
     relaxation : bool
         Fit one relaxation time beside; the curve needs a time.
     advise : bool
@@ -174,8 +174,8 @@ def fit(
         "columns": list(columns),
         "sensitivity": None if sensitivity is None else si(sensitivity, "length per voltage", "sensitivity", FitError),
         "spring": None if spring is None else si(spring, "force per length", "spring", FitError),
-        "spring_error": si(spring_error, "number", "spring_error", FitError),
-        "radius_error": si(radius_error, "number", "radius_error", FitError),
+        "spring_error": _share(spring_error, "spring_error"),
+        "radius_error": _share(radius_error, "radius_error"),
         "relaxation": bool(relaxation),
         "advise": bool(advise),
         "range": None if range is None else si(range, "length", "range", FitError),
@@ -185,6 +185,17 @@ def fit(
         warnings.warn(warning, TaborWarning, stacklevel=2)
     found = {**json.loads(report), "warnings": said}
     return Fit(found, structured(list(csv.reader(io.StringIO(table)))), headline)
+
+
+def _share(value: Quantity, argument: str) -> float:
+    """A share from 0 to 1, as a number or in per cent."""
+    number, unit = value, 1.0
+    if isinstance(value, str) and value.rstrip().endswith("%"):
+        number, unit = value.rstrip()[:-1], 0.01
+    share = si(number, "number", argument, FitError) * unit
+    if not 0 <= share <= 1:
+        raise FitError(f'{argument}: {value!r} must be a share, such as 0.1 or "10%"')
+    return share
 
 
 def _unmasked(values: Any) -> npt.NDArray[Any]:

@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import tables
-from .disk import scene_on_disk, set_words
+from .disk import operand, out_word, scene_on_disk, set_words
 from .errors import OutputError, SceneError
 from .optional import package
 from .program import call
@@ -75,7 +75,7 @@ def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[st
         Whether what the command line says is held back.
     """
     with scene_on_disk(scene) as (path, words):
-        call(["compare", path, "--out", os.fspath(folder), *words, *set_words(overrides)], quiet)
+        call(["compare", path, out_word(folder), *words, *set_words(overrides)], quiet)
     return Study(folder)
 
 
@@ -104,7 +104,7 @@ def accuracy(
     """
     seconds = f"{si(budget, 'time', 'budget')!r} s"
     with scene_on_disk(scene) as (path, words):
-        call(["accuracy", path, "--out", os.fspath(folder), "--budget", seconds, *words, *set_words(overrides)], quiet)
+        call(["accuracy", path, out_word(folder), "--budget", seconds, *words, *set_words(overrides)], quiet)
     return Study(folder)
 
 
@@ -163,6 +163,6 @@ def sweep(
         if share is not None:
             words += ["--only", "/".join(str(number) for number in share)]
         if merge is not None:
-            words += ["--merge", *(os.fspath(each) for each in merge)]
-        call(["sweep", os.fspath(path), "--out", os.fspath(folder), *words, *set_words(overrides)], quiet)
+            words += ["--merge", *(operand(each) for each in merge)]
+        call(["sweep", operand(path), out_word(folder), *words, *set_words(overrides)], quiet)
     return Study(folder)

@@ -209,6 +209,8 @@ impl Report<'_> {
             let Some((row, value)) = row.and_then(|row| Some((row, column.value(row)?))) else {
                 continue;
             };
+            // What is left of the attraction has a figure of its own.
+            let at_zero = at_zero.filter(|_| column.name() != ATTRACTION);
             let left = at_zero
                 .map(|place| place.value(self.rows, |row| column.value(row).unwrap_or(f64::NAN)));
             let note = match left.filter(|left| left.is_finite()) {
