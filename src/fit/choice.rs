@@ -455,7 +455,7 @@ fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>)
         let depth = measured.closest() - fit.parameters.approach_offset;
         if depth > radius {
             warnings.push(format!(
-                "the curve presses the sphere in by {:.3} of its radius, and the models hold for depths far below it; if the approach is not in m, name its unit in the header, as in approach [nm]",
+                "the curve presses the sphere in by {:.1} times its radius, and the models hold for depths far below it; if the approach is not in m, name its unit in the header, as in approach [nm]",
                 depth / radius,
             ));
         }

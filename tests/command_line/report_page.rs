@@ -442,10 +442,9 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
         card[..1].make_ascii_uppercase();
         let value = format_si(binary::number(&rows[1], column).expect("a value"), unit);
         // The attraction at zero load has a card of its own.
-        let end = if column == "attractive_force" {
-            "<"
-        } else {
-            "; "
+        let end = match column {
+            "attractive_force" => "<",
+            _ => "; ",
         };
         for part in [
             format!("<dt>{card}</dt><dd>{value}<small>at the largest contact, step 2{end}"),

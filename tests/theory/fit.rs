@@ -209,7 +209,7 @@ fn an_approach_in_another_unit_is_warned_of() {
         let found = fitted(samples, RADIUS, FREE).warnings;
         found
             .iter()
-            .any(|warning| warning.contains("of its radius"))
+            .any(|warning| warning.contains("times its radius"))
     };
     assert!(!warned(1.0));
     // Numbers in nm, taken as m.
