@@ -104,22 +104,26 @@ impl Grid {
     }
 
     /// Signed wave number along x of column `kx` of a full spectrum, 1/m.
+    #[inline]
     pub fn wavenumber_x(&self, kx: usize) -> f64 {
         2.0 * PI / self.lx * signed_index(kx, self.nx) as f64
     }
 
     /// Signed wave number along y of row `ky` of a spectrum, 1/m.
+    #[inline]
     pub fn wavenumber_y(&self, ky: usize) -> f64 {
         2.0 * PI / self.ly * signed_index(ky, self.ny) as f64
     }
 
     /// Length of the wavevector (kx, ky), 1/m.
+    #[inline]
     pub fn wavenumber(&self, kx: usize, ky: usize) -> f64 {
         self.wavenumber_x(kx).hypot(self.wavenumber_y(ky))
     }
 }
 
 /// Signed index of a discrete frequency: `k` for `k <= n/2`, `k - n` above.
+#[inline]
 pub fn signed_index(k: usize, n: usize) -> i64 {
     if k <= n / 2 {
         k as i64

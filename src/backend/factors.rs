@@ -55,7 +55,7 @@ impl Response {
 
 impl Factors<'_> {
     /// The factors of a shape, one after another.
-    pub fn tabulated<T: Send>(
+    pub fn tabulated<T: Copy + Default + Send>(
         &self,
         shape: Shape,
         number: impl Fn(f64) -> T + Send + Sync,
@@ -64,7 +64,7 @@ impl Factors<'_> {
     }
 
     /// Those of some columns of a shape.
-    pub fn tabulated_columns<T: Send>(
+    pub fn tabulated_columns<T: Copy + Default + Send>(
         &self,
         shape: Shape,
         columns: Range<usize>,
@@ -86,15 +86,20 @@ impl Factors<'_> {
 }
 
 /// A value for each wavevector of some columns, each of so many; compiled once for a type.
-fn each<T: Send>(
+fn each<T: Copy + Default + Send>(
     columns: Range<usize>,
     column: usize,
     value: &(dyn Fn([usize; 2]) -> T + Sync),
 ) -> Vec<T> {
-    let (first, count) = (columns.start, columns.len() * column);
-    let indices = (0..count).into_par_iter().with_min_len(column);
-    let waves = indices.map(|index| [first + index / column, index % column]);
-    waves.map(value).collect()
+    let first = columns.start;
+    let mut values = vec![T::default(); columns.len() * column];
+    let lines = values.par_chunks_exact_mut(column).enumerate();
+    lines.for_each(|(line, values)| {
+        for (ky, at) in values.iter_mut().enumerate() {
+            *at = value([first + line, ky]);
+        }
+    });
+    values
 }
 
 #[cfg(test)]

@@ -7,6 +7,7 @@ use crate::grid::Grid;
 
 /// Stiffness of a wave of `wavenumber` (1/m, above 0) for a contact modulus of 1, 1/m: `|q|/2`,
 /// divided by the layer's relative compliance if there is a layer.
+#[inline]
 pub fn wave_stiffness(wavenumber: f64, layer: Option<&Layer>) -> f64 {
     let half_space = 0.5 * wavenumber;
     match layer {
@@ -53,6 +54,7 @@ impl HalfSpace {
     }
 
     /// Stiffness of the wavevector (kx, ky), indexed as in a spectrum; 0 at the zero wavevector.
+    #[inline]
     pub fn stiffness(&self, kx: usize, ky: usize) -> f64 {
         self.unit * wave_stiffness(self.grid.wavenumber(kx, ky), None)
     }

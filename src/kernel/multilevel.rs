@@ -84,18 +84,19 @@ impl<T: Real, const ADDS: bool> WithSimd for Interpolation<'_, T, ADDS> {
                 let mut blended = [T::zero(); TILE + 2];
                 blended[0] = blend(before(start, cells));
                 blended[count + 1] = blend(after(start + count - 1, cells));
-                let sources = here[start..start + count].iter().zip(&there[start..]);
-                for (value, (&here, &there)) in blended[1..].iter_mut().zip(sources) {
-                    *value = near * here + far * there;
+                let (here, there) = (&here[start..start + count], &there[start..start + count]);
+                for (x, value) in blended[1..=count].iter_mut().enumerate() {
+                    *value = near * here[x] + far * there[x];
                 }
-                for (x, pair) in out.chunks_exact_mut(RATIO).enumerate() {
+                let (pairs, _) = out.as_chunks_mut::<RATIO>();
+                for (x, pair) in pairs.iter_mut().enumerate() {
                     let [left, own, right] = [blended[x], blended[x + 1], blended[x + 2]];
                     let values = [own + far * (left - own), own + far * (right - own)];
-                    for (value, interpolated) in pair.iter_mut().zip(values) {
-                        *value = if ADDS {
-                            self.factor * *value + interpolated
+                    for side in 0..RATIO {
+                        pair[side] = if ADDS {
+                            self.factor * pair[side] + values[side]
                         } else {
-                            interpolated
+                            values[side]
                         };
                     }
                 }
@@ -126,8 +127,9 @@ impl<T: Real> WithSimd for Restriction<'_, T> {
         for (row, line) in self.restricted.chunks_exact_mut(self.width).enumerate() {
             // This cell's own rows, and the nearer ones of the cells before and after.
             let own = (self.first + row) * RATIO;
-            let fine = [before(own, fine_y), own, own + 1, after(own + 1, fine_y)];
-            let [a, b, c, d] = fine.map(|y| self.whole.row(y));
+            let row = |y: usize| self.whole.row(y);
+            let (a, b) = (row(before(own, fine_y)), row(own));
+            let (c, d) = (row(own + 1), row(after(own + 1, fine_y)));
             let across = |x: usize| scale * (far * (a[x] + d[x]) + near * (b[x] + c[x]));
             for (tile, out) in line.chunks_mut(TILE).enumerate() {
                 let start = RATIO * tile * TILE;
@@ -198,16 +200,20 @@ impl<T: Real> WithSimd for FreeShare<'_, T> {
                 let columns = tile * COUNTED..tile * COUNTED + out.len() * ratio;
                 let mut counts = [T::zero(); COUNTED];
                 for line in fine.chunks_exact(fine_x) {
-                    for (count, &value) in counts.iter_mut().zip(&line[columns.clone()]) {
-                        *count += if value == T::zero() {
+                    for (x, value) in line[columns.clone()].iter().enumerate() {
+                        counts[x] += if *value == T::zero() {
                             T::zero()
                         } else {
                             T::one()
                         };
                     }
                 }
-                for (share, counts) in out.iter_mut().zip(counts.chunks_exact(ratio)) {
-                    *share = scale * counts.iter().fold(T::zero(), |sum, &count| sum + count);
+                for (x, share) in out.iter_mut().enumerate() {
+                    let mut sum = T::zero();
+                    for count in &counts[x * ratio..(x + 1) * ratio] {
+                        sum = sum + *count;
+                    }
+                    *share = scale * sum;
                 }
             }
         }
@@ -382,20 +388,21 @@ impl<T: Real> WithSimd for Finest<'_, T> {
         let (own_share, beside_share) = (self.own, self.beside);
         for (row, line) in self.lines.chunks_exact_mut(width).enumerate() {
             let here = self.first + row;
-            let [above, own, below] =
-                [before(here, rows), here, after(here, rows)].map(|row| self.residual.row(row));
+            let row = |y: usize| self.residual.row(y);
+            let (above, own, below) = (row(before(here, rows)), row(here), row(after(here, rows)));
             let last = width - 1;
             let beside = [
                 (0, own[last] + own[after(0, width)]),
                 (last, own[before(last, width)] + own[0]),
             ];
-            // A grid with levels has more than two points each way.
-            let inner = line[1..last].iter_mut().zip(&own[1..last]);
-            let across = above[1..last].iter().zip(&below[1..last]);
-            let along = own[..last - 1].iter().zip(&own[2..]);
-            for (((line, own), (above, below)), (left, right)) in inner.zip(across).zip(along) {
-                *line += beside_share * ((*above + *below) + (*left + *right));
-                *line += own_share * *own;
+            // A grid with levels has more than two points each way. Parts of one length are not asked for it at each point.
+            let (inner, above_inner, below_inner) =
+                (&mut line[1..last], &above[1..last], &below[1..last]);
+            let (left, inner_own, right) = (&own[..last - 1], &own[1..last], &own[2..]);
+            for x in 0..last - 1 {
+                inner[x] +=
+                    beside_share * ((above_inner[x] + below_inner[x]) + (left[x] + right[x]));
+                inner[x] += own_share * inner_own[x];
             }
             for (x, along) in beside {
                 line[x] += beside_share * ((above[x] + below[x]) + along);

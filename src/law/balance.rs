@@ -37,6 +37,7 @@ pub fn imbalance<T: Real>(elastic: T, traction: T) -> T {
 
 /// Net pressure of a solved point, positive in compression, from the elastic pressure with the mean
 /// pressure, the attraction at its gap, and the hardness of a solid that has one.
+#[inline]
 pub fn net_pressure(support: Support, elastic: f64, traction: f64, hardness: Option<f64>) -> f64 {
     let net = match support {
         // 0 - x, for the negative of zero prints as -0.

@@ -27,6 +27,7 @@ impl MaugisDugdale<f64> {
     };
 
     /// The same constants in the kernel's number.
+    #[inline]
     pub fn cast<T: Real>(self) -> MaugisDugdale<T> {
         MaugisDugdale {
             peak_tension: T::from_double(self.peak_tension),

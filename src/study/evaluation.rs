@@ -317,6 +317,7 @@ fn close_pressed(setup: &Setup, problem: &Problem, solved: &mut Solved, law: &La
         return;
     }
     let stiffest = problem.stiffness_max();
+    let sums_attraction = setup.sums_attraction();
     for (i, place) in problem.surface_places().enumerate() {
         let g = solved.gap[place];
         if g <= 0.0 {
@@ -326,7 +327,7 @@ fn close_pressed(setup: &Setup, problem: &Problem, solved: &mut Solved, law: &La
         let factor = solved
             .law_factor
             .map_or(setup.law_factor(i), |factors| factors[i]);
-        let traction = match setup.sums_attraction() {
+        let traction = match sums_attraction {
             true => 0.0,
             false => factor * law.traction(g),
         };

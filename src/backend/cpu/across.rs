@@ -2,7 +2,6 @@
 //! them, and sends them back to the places from which they came.
 
 use std::ops::Range;
-use std::sync::PoisonError;
 
 use rayon::prelude::*;
 use rustfft::num_complex::Complex;
@@ -194,7 +193,7 @@ impl<T: CpuReal> Transform<T> {
     fn lay_rows(&self, group: usize, held: usize, piece: &mut [T]) {
         for (block, tile) in self.tiles[group..].iter().step_by(self.groups).enumerate() {
             let rows = block * BLOCK..held.min((block + 1) * BLOCK);
-            let tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            let tile = tile.lock();
             let columns = piece.chunks_exact_mut(PAIR * held);
             for (line, column) in tile.chunks_exact(BLOCK).zip(columns) {
                 lay(
@@ -209,7 +208,7 @@ impl<T: CpuReal> Transform<T> {
     fn take_rows(&self, group: usize, held: usize, piece: &[T]) {
         for (block, tile) in self.tiles[group..].iter().step_by(self.groups).enumerate() {
             let rows = block * BLOCK..held.min((block + 1) * BLOCK);
-            let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut tile = tile.lock();
             let columns = piece.chunks_exact(PAIR * held);
             for (line, column) in tile.chunks_exact_mut(BLOCK).zip(columns) {
                 take_up(&column[PAIR * rows.start..PAIR * rows.end], line);
@@ -231,7 +230,7 @@ mod tests {
     /// Spectra of some rows of a shape, each number told by its row and column.
     fn fill(tiles: &mut [Tile<f64>], groups: usize, rows: Range<usize>) {
         for (place, tile) in tiles.iter_mut().enumerate() {
-            let tile = tile.get_mut().expect("nobody else");
+            let tile = tile.get_mut();
             for (at, value) in tile.iter_mut().enumerate() {
                 let row = rows.start + place / groups * BLOCK + at % BLOCK;
                 let column = place % groups * BLOCK + at / BLOCK;
@@ -245,7 +244,7 @@ mod tests {
     fn taken(tiles: &[Tile<f64>], groups: usize, held: usize, columns: usize) -> Vec<Vec<u64>> {
         let at = |row: usize, column: usize| {
             let tile = &tiles[row / BLOCK * groups + column / BLOCK];
-            let tile = tile.lock().expect("nobody else");
+            let tile = tile.lock();
             tile[column % BLOCK * BLOCK + row % BLOCK]
         };
         let line = |row: usize| (0..columns).map(move |column| at(row, column));

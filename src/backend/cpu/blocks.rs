@@ -1,8 +1,8 @@
 //! Rows in blocks: the unit in which work is cut, summed and handed to threads.
 
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 
+use parking_lot::Mutex;
 use rustfft::num_complex::Complex;
 
 use crate::backend::Shape;
@@ -19,12 +19,6 @@ pub(super) const TILE: usize = BLOCK * BLOCK;
 /// itself; who works on columns has tiles from all blocks, which only a lock on each can say: it costs some
 /// percent of the column's transform, and a second set of tiles would cost a field.
 pub(super) type Tile<T> = Mutex<[Complex<T>; TILE]>;
-
-/// A tile that nobody else can reach.
-#[inline(always)]
-pub(super) fn alone<T>(tile: &mut Tile<T>) -> &mut [Complex<T>; TILE] {
-    tile.get_mut().unwrap_or_else(PoisonError::into_inner)
-}
 
 /// The rows of a level that this process holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

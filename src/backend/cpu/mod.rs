@@ -148,6 +148,9 @@ pub fn with_threads<R: Send>(
     Ok(Threads::new(threads)?.run(work))
 }
 
+/// Values that a thread converts at a time.
+const PIECE: usize = 1 << 14;
+
 /// Nearly the longest piece of memory that the allocator keeps when it is let go (glibc on 64 bits).
 const LONGEST_KEPT: usize = (32 << 20) - (64 << 10);
 
@@ -215,10 +218,14 @@ impl<T: CpuReal> CpuBackend<T> {
     fn store<V: Copy + Sync>(&mut self, field: Field, values: &[V], round: impl Fn(V) -> T + Sync) {
         self.take(field);
         debug_assert_eq!(values.len(), self.levels[field.level.0].len());
-        self.fields[field.index]
-            .par_iter_mut()
-            .zip(values)
-            .for_each(|(stored, &value)| *stored = round(value));
+        let stored = self.fields[field.index].par_chunks_mut(PIECE);
+        stored
+            .zip(values.par_chunks(PIECE))
+            .for_each(|(stored, values)| {
+                for (stored, value) in stored.iter_mut().zip(values) {
+                    *stored = round(*value);
+                }
+            });
     }
 
     fn add_level(&mut self, shape: Shape, transforms: bool) -> Level {
@@ -421,8 +428,15 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
         self.take(field);
         self.failed()?;
-        let stored = self.fields[field.index].par_iter();
-        Ok(stored.map(|value| value.double()).collect())
+        let stored = &self.fields[field.index];
+        let mut values = vec![0.0; stored.len()];
+        let pieces = values.par_chunks_mut(PIECE).zip(stored.par_chunks(PIECE));
+        pieces.for_each(|(values, stored)| {
+            for (value, stored) in values.iter_mut().zip(stored) {
+                *value = stored.double();
+            }
+        });
+        Ok(values)
     }
 
     fn values(&mut self, field: Field) -> Result<Option<Values<'_>>, BackendError> {

@@ -14,7 +14,7 @@ use rustfft::Fft;
 use rustfft::num_complex::Complex;
 
 use super::CpuReal;
-use super::blocks::{BLOCK, Tile, alone};
+use super::blocks::{BLOCK, Tile};
 use crate::real::Real;
 
 /// One bin of the rows of a block.
@@ -139,7 +139,7 @@ struct Pairing<'a, T: Real, const FORWARD: bool> {
 /// A bin in the tiles of a block.
 #[inline(always)]
 fn bin<T: Real>(tiles: &mut [Tile<T>], at: usize) -> &mut Bin<T> {
-    let (bins, _) = alone(&mut tiles[at / BLOCK]).as_chunks_mut::<BLOCK>();
+    let (bins, _) = tiles[at / BLOCK].get_mut().as_chunks_mut::<BLOCK>();
     &mut bins[at % BLOCK]
 }
 
@@ -226,8 +226,8 @@ fn paired<T: Real, const FORWARD: bool>(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use parking_lot::Mutex;
     use rustfft::num_traits::Zero;
-    use std::sync::Mutex;
 
     /// Rows of many lengths, there and back, beside `realfft`: the same bits.
     fn same_as_realfft<T: CpuReal>(points: usize) {

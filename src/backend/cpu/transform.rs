@@ -4,8 +4,7 @@
 //! transposition between rows and columns moves whole cache lines both ways, and columns go back to the
 //! places from which they came.
 
-use std::sync::{Mutex, MutexGuard, PoisonError};
-
+use parking_lot::{Mutex, MutexGuard};
 use pulp::{Arch, Simd, WithSimd};
 use rustfft::Fft;
 use rustfft::num_complex::Complex;
@@ -13,7 +12,7 @@ use rustfft::num_traits::Zero;
 
 use super::CpuReal;
 use super::across::{PAIR, Pieces, lay, take_up};
-use super::blocks::{BLOCK, Job, TILE, Tile, alone, run_blocks};
+use super::blocks::{BLOCK, Job, TILE, Tile, run_blocks};
 use super::plans::Plans;
 use crate::backend::Shape;
 use crate::kernel::Form;
@@ -123,9 +122,8 @@ impl<T: CpuReal> Transform<T> {
             if form.after_inverse() {
                 plans.rows.part(job.work);
                 for (group, tile) in job.work.iter_mut().enumerate() {
-                    let first = group * BLOCK;
-                    let spectra = guard.spectra.chunks_exact_mut(columns).take(count);
-                    tile_to_rows(alone(tile), spectra.map(|spectrum| &mut spectrum[first..]));
+                    let spectra = &mut guard.spectra[..count * columns];
+                    tile_to_rows(tile.get_mut(), spectra, columns, group * BLOCK);
                 }
                 for (line, spectrum) in lines
                     .chunks_exact_mut(nx)
@@ -136,13 +134,13 @@ impl<T: CpuReal> Transform<T> {
             }
             if form.takes_retained() {
                 for (lines, tile) in lines.chunks_mut(2 * TILE).zip(&mut *job.work) {
-                    take_retained(alone(tile), lines);
+                    take_retained(tile.get_mut(), lines);
                 }
             }
             job.call(lines);
             if form.retains() {
                 for (lines, tile) in lines.chunks(2 * TILE).zip(&mut *job.work) {
-                    retain(lines, alone(tile));
+                    retain(lines, tile.get_mut());
                 }
             }
             if form.before_forward() {
@@ -153,9 +151,8 @@ impl<T: CpuReal> Transform<T> {
                     plans.rows.forward(line, spectrum, &mut guard.transform);
                 }
                 for (group, tile) in job.work.iter_mut().enumerate() {
-                    let first = group * BLOCK;
-                    let spectra = guard.spectra.chunks_exact(columns).take(count);
-                    rows_to_tile(spectra.map(|spectrum| &spectrum[first..]), alone(tile));
+                    let spectra = &guard.spectra[..count * columns];
+                    rows_to_tile(spectra, columns, group * BLOCK, tile.get_mut());
                 }
                 plans.rows.pair(job.work);
             }
@@ -198,14 +195,17 @@ impl<T: CpuReal> Transform<T> {
     }
 }
 
-/// Takes the spectra of rows out of a tile, each from the tile's first column on.
+/// Takes the spectra of rows, `[rows, columns]`, out of a tile, each from the tile's first column on.
 ///
 /// Whole rows of a tile have a fixed length, which the compiler moves without a loop; only the last tile has others.
-fn tile_to_rows<'a, T: Real>(
+fn tile_to_rows<T: Real>(
     tile: &[Complex<T>; TILE],
-    rows: impl Iterator<Item = &'a mut [Complex<T>]>,
+    spectra: &mut [Complex<T>],
+    columns: usize,
+    first: usize,
 ) {
-    for (row, spectrum) in (0..BLOCK).zip(rows) {
+    for (row, spectrum) in spectra.chunks_exact_mut(columns).enumerate() {
+        let spectrum = &mut spectrum[first..];
         if let Some(part) = spectrum.first_chunk_mut::<BLOCK>() {
             for (place, value) in part.iter_mut().enumerate() {
                 *value = tile[place * BLOCK + row];
@@ -218,12 +218,15 @@ fn tile_to_rows<'a, T: Real>(
     }
 }
 
-/// Puts the spectra of rows into a tile, each from the tile's first column on.
-fn rows_to_tile<'a, T: Real>(
-    rows: impl Iterator<Item = &'a [Complex<T>]>,
+/// Puts the spectra of rows, `[rows, columns]`, into a tile, each from the tile's first column on.
+fn rows_to_tile<T: Real>(
+    spectra: &[Complex<T>],
+    columns: usize,
+    first: usize,
     tile: &mut [Complex<T>; TILE],
 ) {
-    for (row, spectrum) in (0..BLOCK).zip(rows) {
+    for (row, spectrum) in spectra.chunks_exact(columns).enumerate() {
+        let spectrum = &spectrum[first..];
         if let Some(part) = spectrum.first_chunk::<BLOCK>() {
             for (place, value) in part.iter().enumerate() {
                 tile[place * BLOCK + row] = *value;
@@ -262,9 +265,7 @@ fn copy_rows<T: Real>(from: &[Complex<T>], to: &mut [Complex<T>]) {
 /// This thread's buffers. Two threads of different pools may meet here; then one waits.
 fn lock<T>(scratch: &[Mutex<Scratch<T>>]) -> MutexGuard<'_, Scratch<T>> {
     let index = rayon::current_thread_index().unwrap_or(0) % scratch.len();
-    scratch[index]
-        .lock()
-        .unwrap_or_else(PoisonError::into_inner)
+    scratch[index].lock()
 }
 
 /// The column part, shared by all its threads.
@@ -311,7 +312,7 @@ impl<T: Real> Columns<'_, T> {
         let tiles = || self.tiles[group..].iter().step_by(self.groups).enumerate();
         for (block, tile) in tiles() {
             let rows = BLOCK.min(ny - block * BLOCK);
-            let tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            let tile = tile.lock();
             for (place, line) in tile.chunks_exact(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
                 copy_rows(line, &mut guard.column[at..at + rows]);
@@ -322,7 +323,7 @@ impl<T: Real> Columns<'_, T> {
         guard.column = column;
         for (block, tile) in tiles() {
             let rows = BLOCK.min(ny - block * BLOCK);
-            let mut tile = tile.lock().unwrap_or_else(PoisonError::into_inner);
+            let mut tile = tile.lock();
             for (place, line) in tile.chunks_exact_mut(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
                 copy_rows(&guard.column[at..at + rows], line);
@@ -404,6 +405,10 @@ impl<T: Real> WithSimd for Scaling<'_, T> {
     type Output = f64;
 
     /// The same source for each kind of processor; the order of all additions is that of the lanes.
+    #[allow(
+        clippy::needless_range_loop,
+        reason = "a pair of iterators over few lanes costs as much as they"
+    )]
     #[inline(always)]
     fn with_simd<S: Simd>(self, _: S) -> f64 {
         let mut sums = [0.0; LANES];
@@ -411,12 +416,12 @@ impl<T: Real> WithSimd for Scaling<'_, T> {
         let (factors, factor_rest) = self.factors.as_chunks::<LANES>();
         for (values, factors) in columns.iter_mut().zip(factors) {
             if self.energy {
-                for ((sum, value), &factor) in sums.iter_mut().zip(&*values).zip(factors) {
-                    *sum += (value.norm_sqr() * factor).double();
+                for lane in 0..LANES {
+                    sums[lane] += (values[lane].norm_sqr() * factors[lane]).double();
                 }
             }
-            for (value, &factor) in values.iter_mut().zip(factors) {
-                *value = value.scale(factor);
+            for lane in 0..LANES {
+                values[lane] = values[lane].scale(factors[lane]);
             }
         }
         for (lane, (value, &factor)) in column_rest.iter_mut().zip(factor_rest).enumerate() {
