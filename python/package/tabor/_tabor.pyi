@@ -6,6 +6,8 @@ import numpy.typing as npt
 
 _Array = npt.NDArray[np.float64]
 _Report = Callable[[int, int, float], object] | None
+#: A message about a key of a scene, perhaps empty, in other words.
+_Teller = Callable[[str, str], str] | None
 
 __all__ = [
     "__version__",
@@ -39,10 +41,11 @@ class LoadedScene:
         overrides: Sequence[tuple[str, str]],
         heights: _Array | None = None,
         factors: _Array | None = None,
+        teller: _Teller = None,
     ) -> LoadedScene: ...
     def resolved_json(self) -> str: ...
     def loads(self) -> list[tuple[str, float, float | None]]: ...
-    def path(self, threads: int | None = None, until_apart: bool = False) -> SolvedPath: ...
+    def path(self, threads: int | None = None, until_apart: bool = False, teller: _Teller = None) -> SolvedPath: ...
     def heights(self, threads: int | None = None) -> tuple[_Array, tuple[float, float], list[str]]: ...
 
 @final

@@ -10,8 +10,17 @@ from typing import Any, ClassVar
 from .errors import SceneError, SurfaceError
 from .quantities import Quantity
 from .scene import Scene, field
-from .surfaces import HeightFile, Surface, counts, is_part, sides, tables_of
+from .surfaces import HeightFile, Surface, counts, is_part, names_of, sides, tables_of
 from .topography import from_topography, is_topography
+from .wording import CONTACT, Wording
+
+#: Tables of a scene that a contact has arguments for.
+TABLES = {
+    "grid": "size, points and boundary",
+    "surface": "heights",
+    "adhesion": 'law, such as law=MaugisDugdale("50 mJ/m^2", range="5 nm")',
+    "solver": "tolerance, max_iterations, precision and backend",
+}
 
 
 @dataclass(frozen=True)
@@ -151,12 +160,14 @@ class Contact(Scene):
         if isinstance(heights, Surface):
             size = heights.size if size is None else size
             heights = heights.heights
+        names = {}
         if isinstance(heights, (str, os.PathLike)):
-            if not os.path.isfile(heights):
-                words = "is a folder" if os.path.isdir(heights) else "there is no such file"
-                raise SurfaceError(f"heights: {os.fspath(heights)}: {words}")
+            names = {"surface.0": "heights"}
+            _refuse_no_file(heights, "heights")
             heights = HeightFile(heights)
         boundary = "periodic" if boundary is None else boundary
+        for name in TABLES.keys() & tables:
+            raise SceneError(f"{name}: a contact takes {TABLES[name]}")
         for name, table in (("solid", solid), ("loading", loading)):
             if table is not None and not isinstance(table, Mapping):
                 raise SceneError(f"{name}: a mapping of the keys of [{name}] is expected, not {table!r}")
@@ -166,22 +177,26 @@ class Contact(Scene):
             for name, value in (("treatment", treatment), ("rate", rate), ("adhesion_map", adhesion_map)):
                 if value is not None:
                     raise SceneError(f"{name}: it needs a law, such as law=MaugisDugdale(...)")
+        if law is not None:
+            names["adhesion"] = f"{type(law).__name__}."
         adhesion = None if law is None else law.table() | {"treatment": treatment, "rate": rate}
         if adhesion is not None and isinstance(adhesion_map, Mapping):
             adhesion["map"], adhesion_map = adhesion_map, None
         elif adhesion is not None and isinstance(adhesion_map, (str, os.PathLike)):
+            _refuse_no_file(adhesion_map, "adhesion_map")
             adhesion["map"], adhesion_map = os.path.abspath(adhesion_map), None
         grid: dict[str, Any] = {"size": size, "boundary": boundary}
         if is_part(heights):
             grid["points"] = None if points is None else counts(points)
             surface = tables_of(heights, None if size is None else min(sides(size, error=SceneError)))
-            values = None
+            values, names = None, names_of(heights, "heights") | names
         else:
             if points is not None:
                 raise SceneError("points: an array has its own; they are for parts such as Sphere")
             if size is None:
                 raise SceneError("size: the lengths of the cell are expected")
             values = field(heights, "heights")
+            names |= {"surface.0": "heights", "grid.points": "heights"}
             rows, columns = values.shape
             grid["points"] = [columns, rows]
             surface = [{"kind": "flat"}]
@@ -212,18 +227,10 @@ class Contact(Scene):
             "solver": {"tolerance": tolerance, "max_iterations": max_iterations, "precision": precision, "backend": backend},
             **tables,
         }
-        try:
-            super().__init__(scene, heights=values, adhesion_map=adhesion_map, threads=threads)
-        except SceneError as error:
-            raise SceneError(f"{error}{_meant(tables, str(error))}") from None
+        self._of_tables(scene, Wording(CONTACT | names), values, adhesion_map, threads)
 
 
-def _meant(tables: Mapping[str, Any], words: str) -> str:
-    """What to add to a message of a scene that does not know the name of a table: arguments of a contact like it."""
-    import difflib
-    import inspect
-
-    arguments = [name for name in inspect.signature(Contact).parameters if name != "tables"]
-    unknown = [name for name in tables if f"{name}: unknown key in the scene itself" in words]
-    near = [(name, difflib.get_close_matches(name, arguments, 1)) for name in unknown]
-    return "".join(f"\nof the arguments of a contact, {found[0]} is like {name}" for name, found in near if found)
+def _refuse_no_file(path: str | os.PathLike[str], argument: str) -> None:
+    if not os.path.isfile(path):
+        words = "is a folder" if os.path.isdir(path) else "there is no such file"
+        raise SurfaceError(f"{argument}: {os.fspath(path)}: {words}")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -12,7 +13,12 @@ from typing import Any
 import numpy as np
 
 from . import _tabor
+from .errors import TaborError
 from .scene import Scene, toml_text
+
+
+#: Where a parser stopped in a text.
+SYNTAX = re.compile(r"TOML parse error at line \d+, column \d+\n(?:.*\|.*\n)+ *")
 
 
 def set_words(overrides: Mapping[str, Any] | None) -> list[str]:
@@ -60,7 +66,27 @@ def scene_on_disk(scene: Any) -> Iterator[tuple[str, list[str]]]:
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.toml"
         path.write_text(toml_text(_with_files(scene, folder)), encoding="utf-8")
-        yield os.fspath(path), words
+        with told_without(path, scene._told_of):
+            yield os.fspath(path), words
+
+
+@contextmanager
+def told_without(path: Path, tell: Callable[[str, str], str]) -> Iterator[None]:
+    """Tells messages about a file that its author has never seen, by key and words, without its path and lines."""
+    place = re.compile(rf"^{re.escape(os.fspath(path))}(?::\d+)?(, from --set)?: (?:([\w.]+): )?(.*)$")
+
+    def told(line: str) -> str:
+        found = place.match(line)
+        if found is None:
+            return tell("", line)
+        from_set, key, words = found.groups()
+        return f'overrides["{key}"]: {words}' if from_set else tell(key or "", words)
+
+    try:
+        yield
+    except TaborError as error:
+        words = SYNTAX.sub("", str(error))
+        raise type(error)("\n".join(told(line) for line in words.splitlines())) from None
 
 
 def _with_files(scene: Scene, folder: str) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from .step import Step
 
 if TYPE_CHECKING:
     from .scene import Scene
+    from .wording import Wording
 
 #: A load: the word of its control, its value, SI, and the seconds that it takes.
 Load = tuple[str, float, "float | None"]
@@ -26,9 +27,12 @@ class Path:
     in a fork; its contact and its steps do both.
     """
 
-    def __init__(self, scene: Scene, loads: Iterator[Load], until_apart: bool, progress: Any, total: int | None = None) -> None:
+    def __init__(
+        self, scene: Scene, loads: Iterator[Load], wording: Wording | None, until_apart: bool, progress: Any, total: int | None = None
+    ) -> None:
         self._of = type(scene).__name__
-        self._solver = scene._loaded.path(scene.threads, until_apart)
+        self._solver = scene._loaded.path(scene.threads, until_apart, wording)
+        self._wording = wording
         self._loads = loads
         self._pulls = until_apart
         # One bar for all loads, from the first on.
@@ -75,7 +79,7 @@ class Path:
             self._busy.release()
         if self._ended:
             self._open.close()
-        for words in said:
+        for words in said if self._wording is None else [self._wording("", words) for words in said]:
             warnings.warn(words, TaborWarning, stacklevel=level)
         if not step.converged:
             words = f"a load did not converge: residual {step.residual:.1e} after {step.iterations} iterations"

@@ -36,7 +36,7 @@ def call(words: Sequence[str], quiet: bool) -> str:
         process.communicate()
         raise
     if process.returncode not in (0, NOT_CONVERGED):
-        message = (errors or "").strip() or f"tabor {words[0]} ended with {process.returncode}"
+        message = (errors or "").strip().removeprefix("error: ") or f"tabor {words[0]} ended with {process.returncode}"
         raise CLASSES.get(process.returncode, TaborError)(message)
     return printed
 

@@ -20,6 +20,7 @@ from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
 from .quantities import Quantity, refuse_masked, si
 from .step import Step
+from .wording import Wording
 
 if TYPE_CHECKING:
     from .runs import Run
@@ -69,39 +70,50 @@ def field(array: Any, argument: str) -> Array:
     return values
 
 
-def plain(value: Any, place: str = "") -> Any:
-    """A value at a place of a scene as TOML can hold it; tables lose what is None."""
+def thread_count(count: Any, argument: str) -> int:
+    """A number of threads, or of what has threads of its own."""
+    if isinstance(count, (bool, np.bool_)) or not isinstance(count, (int, np.integer)) or not 1 <= count <= MOST_THREADS:
+        raise SceneError(f"{argument}: a count from 1 to {MOST_THREADS} is expected, not {count!r}")
+    return int(count)
+
+
+def plain(value: Any, place: str = "", wording: Wording | None = None) -> Any:
+    """A value at a place of a scene as TOML can hold it; tables lose what is None. Messages are told by `wording`."""
+
+    def refuse(words: str) -> SceneError:
+        return SceneError(f"{place}: {words}" if wording is None else wording(place, words))
+
     if isinstance(value, Mapping):
         each = {str(key): below for key, below in value.items() if below is not None}
-        return {key: plain(below, f"{place}.{key}" if place else key) for key, below in each.items()}
+        return {key: plain(below, f"{place}.{key}" if place else key, wording) for key, below in each.items()}
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, (list, tuple)):
-        return [plain(each, f"{place}.{index}") for index, each in enumerate(value)]
+        return [plain(each, f"{place}.{index}", wording) for index, each in enumerate(value)]
     if isinstance(value, np.generic):
         value = value.item()
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if isinstance(value, float) and not math.isfinite(value):
-        raise SceneError(f"{place}: {value} is no finite number")
+        raise refuse(f"{value} is no finite number")
     if isinstance(value, int) and not isinstance(value, bool) and not -MOST_WHOLE <= value <= MOST_WHOLE:
-        raise SceneError(f"{place}: {value} is out of range; a whole number of a scene is at most 2^63 - 1")
+        raise refuse(f"{value} is out of range; a whole number is at most 2^63 - 1")
     if isinstance(value, str) and not value.isascii():
         try:
             value.encode()
         except UnicodeEncodeError as error:
-            raise SceneError(f"{place}: this is no text ({error})") from None
+            raise refuse(f"this is no text ({error})") from None
     if not isinstance(value, (bool, int, float, str)):
-        raise SceneError(f"{place}: a number, a text, a list or a table is expected, not {type(value).__name__}")
+        raise refuse(f"a number, a text, a list or a table is expected, not {type(value).__name__}")
     return value
 
 
-def toml_text(tables: Mapping[str, Any]) -> str:
-    """Tables as the text of a TOML file."""
+def toml_text(tables: Mapping[str, Any], wording: Wording | None = None) -> str:
+    """Tables as the text of a TOML file; messages are told by `wording`."""
     if not isinstance(tables, Mapping):
         raise SceneError(f"a scene is a mapping of tables, not {type(tables).__name__}; Scene.read reads a file")
     try:
-        return _tabor.toml_from_json(json.dumps(plain(tables)))
+        return _tabor.toml_from_json(json.dumps(plain(tables, wording=wording)))
     except RecursionError as error:
         raise SceneError(f"a scene holds numbers, texts, lists and tables: {error}") from None
 
@@ -150,7 +162,12 @@ class Scene:
         adhesion_map: Any = None,
         threads: int | None = None,
     ) -> None:
-        self._begin((toml_text(tables), "scene", _here(), []), heights, adhesion_map, threads)
+        self._of_tables(tables, Wording({}, in_python=False), heights, adhesion_map, threads)
+
+    def _of_tables(
+        self, tables: Mapping[str, Any], wording: Wording, heights: Any = None, adhesion_map: Any = None, threads: int | None = None
+    ) -> None:
+        self._begin((toml_text(tables, wording), "scene", _here(), []), heights, adhesion_map, threads, None, wording)
 
     def _begin(
         self,
@@ -158,16 +175,17 @@ class Scene:
         heights: Any,
         adhesion_map: Any,
         threads: int | None,
-        path_of_file: Path | None = None,
+        path_of_file: Path | None,
+        wording: Wording | None,
     ) -> None:
-        if threads is not None and (isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= MOST_THREADS):
-            raise SceneError(f"threads: a count from 1 to {MOST_THREADS} is expected, not {threads!r}")
         self._heights = None if heights is None else field(heights, "heights")
         self._adhesion_map = None if adhesion_map is None else field(adhesion_map, "adhesion_map")
         self._source = source
         self.path_of_file = path_of_file
-        self.threads = None if threads is None else int(threads)
-        self._loaded = _tabor.LoadedScene(*source, self._heights, self._adhesion_map)
+        self.threads = None if threads is None else thread_count(threads, "threads")
+        # Nobody tells messages of a file: they name its lines.
+        self._wording = wording
+        self._loaded = _tabor.LoadedScene(*source, self._heights, self._adhesion_map, wording)
         if self._adhesion_map is not None and self.resolved.get("adhesion") is None:
             raise SceneError("adhesion_map: it changes the tension of a law, and there is none; give a law")
 
@@ -197,7 +215,7 @@ class Scene:
         ]
         # Files are read when they are asked for, perhaps from another working directory.
         there = Path(_here()) / path
-        scene._begin((text, str(path), str(there.parent), chosen), None, None, threads, there)
+        scene._begin((text, str(path), str(there.parent), chosen), None, None, threads, there, None)
         return scene
 
     @property
@@ -279,7 +297,7 @@ class Scene:
     def surface(self) -> tuple[Array, tuple[float, float]]:
         """The heights of all parts, m, of shape (ny, nx), and the cell's (lx, ly), m."""
         heights, size, said = self._loaded.heights(self.threads)
-        _warn(said)
+        _warn(self._told_of("", words) for words in said)
         return heights, size
 
     def heights(self) -> Array:
@@ -319,7 +337,19 @@ class Scene:
         loads = self._loads(control, seconds)
         given = self._loaded.loads() if control is None else control[1]
         total = 1 if _is_one(given) else len(given) if hasattr(given, "__len__") and not pulls else None
-        return LoadPath(self, loads, pulls, progress, total)
+        return LoadPath(self, loads, self._wording_of(control), pulls, progress, total)
+
+    def _wording_of(self, control: tuple[str, Any] | None) -> Wording | None:
+        """Who tells messages of a path: loads that were given have the name of their control."""
+        if control is None:
+            return self._wording
+        return (self._wording or Wording({}, in_python=False)).of_loads(control[0])
+
+    def _told_of(self, key: str, words: str) -> str:
+        """A message about a key, perhaps empty, in the words of the scene's author."""
+        if self._wording is not None:
+            return self._wording(key, words)
+        return f"{key}: {words}" if key else words
 
     def _loads(self, control: tuple[str, Any] | None, seconds: Any) -> Iterator[Load]:
         if control is None:
@@ -372,7 +402,7 @@ class Scene:
         name, value = control
         if not _is_one(value):
             raise TypeError(f"{name}: solve takes one load, not {type(value).__name__}; path takes many")
-        return LoadPath(self, self._loads(control, None), False, progress, 1)._next(4)
+        return LoadPath(self, self._loads(control, None), self._wording_of(control), False, progress, 1)._next(4)
 
     def run(
         self,
@@ -406,13 +436,13 @@ class Scene:
         total = None if self.resolved["loading"].get("until") else len(self._loaded.loads())
         with reporter(progress, total) as report:
             trouble, said = _tabor.run(self._loaded, os.fspath(folder), resume, overwrite, images, self.threads, report)
-        _warn([words for is_warning, words in said if is_warning])
+        _warn(self._told_of("", words) for is_warning, words in said if is_warning)
         if trouble is not None:
             warnings.warn(trouble, NotConvergedWarning, stacklevel=2)
         return Run(folder)
 
     def __reduce__(self) -> Any:
-        return _restore, (type(self), self._source, self._heights, self._adhesion_map, self.threads, self.path_of_file)
+        return _restore, (type(self), self._source, self._heights, self._adhesion_map, self.threads, self.path_of_file, self._wording)
 
     def _described(self) -> dict[str, str]:
         """What the scene is, in words."""
@@ -438,9 +468,17 @@ class Scene:
         return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
 
 
-def _restore(cls: type[Scene], source: Any, heights: Any, adhesion_map: Any, threads: int | None, path: Path | None) -> Scene:
+def _restore(
+    cls: type[Scene],
+    source: Any,
+    heights: Any,
+    adhesion_map: Any,
+    threads: int | None,
+    path: Path | None,
+    wording: Wording | None,
+) -> Scene:
     scene = cls.__new__(cls)
-    scene._begin(source, heights, adhesion_map, threads, path)
+    scene._begin(source, heights, adhesion_map, threads, path, wording)
     return scene
 
 

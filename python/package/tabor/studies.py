@@ -11,12 +11,12 @@ import numpy as np
 import numpy.typing as npt
 
 from . import tables
-from .disk import operand, out_word, scene_on_disk, set_words
+from .disk import operand, out_word, scene_on_disk, set_words, told_without
 from .errors import OutputError, SceneError
 from .optional import package
 from .program import call
 from .quantities import Quantity, si
-from .scene import Scene, toml_text
+from .scene import Scene, thread_count, toml_text
 
 
 class Study:
@@ -102,9 +102,11 @@ def accuracy(
     quiet : bool
         Whether what the command line says is held back.
     """
-    seconds = f"{si(budget, 'time', 'budget')!r} s"
+    seconds = si(budget, "time", "budget")
+    if seconds <= 0:
+        raise SceneError("budget: must be more than zero")
     with scene_on_disk(scene) as (path, words):
-        call(["accuracy", path, out_word(folder), "--budget", seconds, *words, *set_words(overrides)], quiet)
+        call(["accuracy", path, out_word(folder), f"--budget={seconds!r} s", *words, *set_words(overrides)], quiet)
     return Study(folder)
 
 
@@ -143,6 +145,11 @@ def sweep(
     import contextlib
     import tempfile
 
+    options = [f"--{name}={thread_count(count, name)}" for name, count in (("jobs", jobs), ("threads", threads)) if count is not None]
+    if share is not None:
+        options.append(f"--only={_share(share)}")
+    if merge is not None:
+        options += ["--merge", *(operand(each) for each in merge)]
     with contextlib.ExitStack() as until_done:
         words: list[str] = []
         if isinstance(study, Mapping):
@@ -155,14 +162,21 @@ def sweep(
                 tables["scene"] = os.path.abspath(scene)
             path = Path(until_done.enter_context(tempfile.TemporaryDirectory())) / "study.toml"
             path.write_text(toml_text(tables), encoding="utf-8")
+            until_done.enter_context(told_without(path, _of_study))
         else:
             path = Path(study)
-        for name, count in (("--jobs", jobs), ("--threads", threads)):
-            if count is not None:
-                words += [name, str(count)]
-        if share is not None:
-            words += ["--only", "/".join(str(number) for number in share)]
-        if merge is not None:
-            words += ["--merge", *(operand(each) for each in merge)]
-        call(["sweep", operand(path), out_word(folder), *words, *set_words(overrides)], quiet)
+        call(["sweep", operand(path), out_word(folder), *options, *words, *set_words(overrides)], quiet)
     return Study(folder)
+
+
+def _share(share: Any) -> str:
+    """A share (i, n) in the words of the command line."""
+    numbers = list(share) if isinstance(share, (tuple, list)) else []
+    if len(numbers) != 2 or not all(isinstance(number, (int, np.integer)) for number in numbers) or not 1 <= numbers[0] <= numbers[1]:
+        raise SceneError(f"share: (i, n) is expected, as in (2, 8) for the second of eight, not {share!r}")
+    return f"{numbers[0]}/{numbers[1]}"
+
+
+def _of_study(key: str, words: str) -> str:
+    """A message about the tables of a study."""
+    return f"study: {key}: {words}" if key else f"study: {words}"
