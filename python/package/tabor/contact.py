@@ -73,7 +73,8 @@ class Contact(Scene):
     heights : array of shape (ny, nx), a Surface, a file, a part or list of parts, or a Topography of SurfaceTopography
         Heights in metres, positive towards the solid; any array of numbers. One of float64 in C order is shared, not
         copied; of another type, such as float32, or in another order one copy is made, of float64, in which the solver reads
-        heights whatever its precision. A shared array must stay as it is: once it has been written to, the contact
+        heights whatever its precision. Refused are float16, whose steps are 60 nm and more in metres, truth values, and
+        arrays with a unit other than m (of astropy, pint, unyt or xarray), which NumPy would drop. A shared array must stay as it is: once it has been written to, the contact
         refuses to solve. Give ``heights.copy()`` where you will go on writing. A file (its path, or a `HeightFile`) and
         parts such as ``Sphere("1 um")`` are what they are in a scene.
     size : number or text, or two of them
@@ -104,7 +105,8 @@ class Contact(Scene):
     rate : mapping, optional
         How the work of adhesion grows with the speed of a receding edge: the keys of ``[adhesion.rate]``.
     adhesion_map : array of shape (ny, nx), file or mapping, optional
-        A factor on the tension of the law at each point; an array is shared as the heights are, and a mapping is a pattern:
+        A factor on the tension of the law at each point, or truth values: whether the law acts there. An array is shared as the
+        heights are, and a mapping is a pattern:
         ``{"pattern": "checker", "period": "1 um", "low": 0, "high": 1}``.
     spring : number or text, optional
         Stiffness of a spring between the prescribed approach and the body, N/m.
@@ -188,14 +190,14 @@ class Contact(Scene):
         grid: dict[str, Any] = {"size": size, "boundary": boundary}
         if is_part(heights):
             grid["points"] = None if points is None else counts(points)
-            surface = tables_of(heights, None if size is None else min(sides(size, error=SceneError)))
+            surface = tables_of(heights, None if size is None else min(sides(size, error=SceneError)), "heights")
             values, names = None, names_of(heights, "heights") | names
         else:
             if points is not None:
                 raise SceneError("points: an array has its own; they are for parts such as Sphere")
             if size is None:
                 raise SceneError("size: the lengths of the cell are expected")
-            values = field(heights, "heights")
+            values = field(heights, "heights", "length")
             names |= {"surface.0": "heights", "grid.points": "heights"}
             rows, columns = values.shape
             grid["points"] = [columns, rows]

@@ -15,12 +15,16 @@ import numpy.typing as npt
 
 from . import _tabor
 from .errors import FitError, TaborWarning
-from .quantities import Quantity, si, words
+from .quantities import Quantity, refuse_unit, si, words
 from .tables import structured
 
 
 #: Fitted numbers with their units.
 UNITS = {"work_of_adhesion": "J/m^2", "contact_modulus": "Pa", "range": "m", "peak_tension": "Pa"}
+
+
+#: Columns of a curve whose numbers are in SI units.
+DIMENSIONS = {"approach": "length", "force": "force", "time": "time"}
 
 
 class Estimate(NamedTuple):
@@ -198,8 +202,9 @@ def _share(value: Quantity, argument: str) -> float:
     return share
 
 
-def _unmasked(values: Any) -> npt.NDArray[Any]:
+def _column(name: str, values: Any) -> npt.NDArray[Any]:
     """The values of a column; what is masked is missing, as NaN."""
+    refuse_unit(values, DIMENSIONS.get(name, "number"), name, FitError)
     if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         return np.where(values.mask, np.nan, np.asarray(values, dtype=np.float64))
     return np.asarray(values)
@@ -221,7 +226,7 @@ def _curve(curve: Any) -> tuple[str, str | None]:
         table = {str(name): curve[name] for name in curve.columns}
     else:
         raise FitError(f"curve: a file, columns or arrays are expected, not {type(curve).__name__}")
-    arrays = {name: _unmasked(values) for name, values in table.items()}
+    arrays = {name: _column(name, values) for name, values in table.items()}
     if len({array.shape for array in arrays.values()}) > 1 or any(array.ndim != 1 for array in arrays.values()):
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise FitError(f"curve: columns of one length are expected, not {shapes}")

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from . import _tabor
 from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
-from .quantities import Quantity, refuse_masked, si
+from .quantities import Quantity, refuse_masked, refuse_truths, refuse_unit, si, unit_of
 from .step import Step
 from .wording import Wording
 
@@ -47,17 +47,39 @@ Array = npt.NDArray[np.float64]
 Loads: TypeAlias = Union[Quantity, Iterable[Quantity], npt.NDArray[Any]]
 
 
-def field(array: Any, argument: str) -> Array:
-    """A two-dimensional array of float64 in C order, every number finite; the array itself where it is one."""
+def field(array: Any, argument: str, dimension: str) -> Array:
+    """A two-dimensional array of float64 in C order, every number finite; the array itself where it is one.
+
+    Parameters
+    ----------
+    array : array of shape (ny, nx)
+    argument : str
+        Its name, for messages.
+    dimension : str
+        "length", or "number", of which truth values may be two.
+    """
     refuse_masked(array, argument)
+    refuse_unit(array, dimension, argument)
+    dims = getattr(array, "dims", ())
+    if isinstance(dims, tuple) and [str(each).lower() for each in dims] == ["x", "y"]:
+        raise SceneError(f'{argument}: its dimensions are (x, y), and rows lie along y; give {argument}.transpose("y", "x")')
     try:
         values = np.asarray(array)
     except ValueError as error:
         raise SceneError(f"{argument}: an array of shape (ny, nx) is expected ({error})") from None
     if values.dtype.kind not in "fiubO":
         raise SceneError(f"{argument}: real numbers are expected, not {values.dtype}")
+    if dimension == "length":
+        refuse_truths(values, argument)
+        # Near 0 its numbers are multiples of 2^-24.
+        if values.dtype == np.float16:
+            raise SceneError(f"{argument}: float16 has steps of 60 nm and more for lengths in metres; give float32 or float64")
     if values.ndim == 0 and values.dtype.kind == "O":
         raise SceneError(f"{argument}: an array of shape (ny, nx) is expected, not {type(array).__name__}")
+    if values.dtype.kind == "O":
+        odd = next((each for each in values.flat if isinstance(each, (bool, np.bool_, str, bytes))), None)
+        if odd is not None:
+            raise SceneError(f"{argument}: real numbers are expected, not {odd!r}")
     try:
         values = np.require(values, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
     except (TypeError, ValueError, OverflowError) as error:
@@ -86,6 +108,8 @@ def plain(value: Any, place: str = "", wording: Wording | None = None) -> Any:
     if isinstance(value, Mapping):
         each = {str(key): below for key, below in value.items() if below is not None}
         return {key: plain(below, f"{place}.{key}" if place else key, wording) for key, below in each.items()}
+    if unit := unit_of(value):
+        raise refuse(f"it has the unit {unit}; a number in SI units, or a text with its unit, is expected")
     if isinstance(value, np.ndarray):
         value = value.tolist()
     if isinstance(value, (list, tuple)):
@@ -178,8 +202,8 @@ class Scene:
         path_of_file: Path | None,
         wording: Wording | None,
     ) -> None:
-        self._heights = None if heights is None else field(heights, "heights")
-        self._adhesion_map = None if adhesion_map is None else field(adhesion_map, "adhesion_map")
+        self._heights = None if heights is None else field(heights, "heights", "length")
+        self._adhesion_map = None if adhesion_map is None else field(adhesion_map, "adhesion_map", "number")
         self._source = source
         self.path_of_file = path_of_file
         self.threads = None if threads is None else thread_count(threads, "threads")
@@ -358,6 +382,7 @@ class Scene:
             return iter(self._loaded.loads())
         name, values = control
         word, dimension = CONTROLS[name]
+        refuse_unit(values, dimension, name)
         values = [values] if _is_one(values) else values
         if seconds is None:
             return ((word, si(value, dimension, name), None) for value in values)

@@ -196,12 +196,15 @@ def is_part(parts: Any) -> bool:
     return isinstance(parts, (_Part, HeightFile, Mapping))
 
 
-def tables_of(parts: Any, side: float | None) -> list[dict[str, Any]]:
-    """The tables ``[[surface]]`` of a part or a list of parts."""
+def tables_of(parts: Any, side: float | None, argument: str) -> list[dict[str, Any]]:
+    """The tables ``[[surface]]`` of a part or a list of parts that was given as `argument`."""
     each = parts if isinstance(parts, (list, tuple)) else [parts]
     for part in each:
         if not isinstance(part, (_Part, HeightFile, Mapping)):
-            raise SurfaceError(f"parts: parts of a surface are expected, such as Sphere(\"1 um\"), not {part!r}")
+            raise SurfaceError(f"{argument}: parts of a surface are expected, such as Sphere(\"1 um\"), not {part!r}")
+        if isinstance(part, Mapping) and "kind" not in part:
+            words = 'a mapping is a part of a surface and has a kind, such as {"kind": "sphere", "radius": "1 um"}'
+            raise SurfaceError(f"{argument}: {words}, not {', '.join(map(str, part)) or 'nothing'}")
     return [dict(part) if isinstance(part, Mapping) else part.table(side) for part in each]
 
 
@@ -219,7 +222,7 @@ def _scene(parts: Any, grid: dict[str, Any], side: float | None, threads: int | 
     tables = {
         "grid": grid,
         "solid": {"contact_modulus": 1.0},
-        "surface": tables_of(parts, side),
+        "surface": tables_of(parts, side, "parts"),
         "loading": {"control": "force" if grid.get("boundary") == "free" else "pressure", "path": [0.0]},
     }
     scene._of_tables(tables, Wording({**CONTACT, **names}), threads=threads)
@@ -322,7 +325,7 @@ def _map(array: Any, size: Size | None) -> tuple[Array, list[float]]:
         array = array.heights
     if size is None:
         raise SurfaceError("size: the lengths of the cell are expected")
-    return field(array, "heights"), sides(size)
+    return field(array, "heights", "length"), sides(size)
 
 
 def statistics(heights: Any, size: Size | None = None, *, boundary: str = "periodic") -> dict[str, float]:
