@@ -38,8 +38,13 @@ def test_a_run_is_read_back(run):
     assert field.mean() == pytest.approx(2e6, rel=1e-5)
     assert run.field("pressure", 1).mean() == pytest.approx(1e6, rel=1e-5)
     assert len(run.to_frame()) == 2
-    with pytest.raises(tabor.OutputError, match="displacement"):
-        run.field("displacement")
+    for name, step, words in (
+        ("displacement", None, r'displacement is not there; it holds gap, pressure; \[output\] fields = \["displacement"\] writes it'),
+        ("presure", None, "presure is no field; a run has pressure, gap, displacement, heights"),
+        ("pressure", 3, "step 3 has no pressure; steps that have it are 1, 2$"),
+    ):
+        with pytest.raises(tabor.OutputError, match=words):
+            run.field(name, step)
 
 
 def test_a_path_is_the_run(run):

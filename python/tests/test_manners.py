@@ -233,10 +233,20 @@ def test_other_threads_run_while_one_solves():
     assert turns > 50
 
 
-@pytest.mark.parametrize("build", ["tabor.self_affine(8192, 1.0, rms_slope=0.1, shortest=1e-3)", "tabor.statistics(heights, 1.0)"])
-def test_control_c_ends_the_building_of_a_surface(build):
+@pytest.mark.parametrize(
+    "build",
+    [
+        "tabor.self_affine(8192, 1.0, rms_slope=0.1, shortest=1e-3)",
+        "tabor.statistics(heights, 1.0)",
+        # Some ten seconds.
+        "tabor.fit((approach, force, numpy.linspace(0, 2, 6000)), radius=1e-6, relaxation=True)",
+    ],
+)
+def test_control_c_ends_what_is_no_solve(build):
     code = f"""
 import signal, threading, time, numpy, tabor, sys
+approach = 1e-7 * (1 - abs(numpy.linspace(-1, 1, 6000)))
+force = 4 / 3 * 1e9 * 1e-6**0.5 * approach**1.5 + numpy.random.default_rng(1).normal(size=6000) * 1e-9
 heights = numpy.random.default_rng(1).normal(size=(4096, 4096)) if "heights, 1.0" in {build!r} else None
 sent = []
 def interrupt():

@@ -186,3 +186,11 @@ def test_topographies_of_files(name, turned):
     if turned:
         both = tuple(np.sort(heights, axis=None) for heights in both)
     np.testing.assert_allclose(*both, atol=1e-9 * np.ptp(ours.heights))
+
+
+def test_what_is_refused_ends_a_path():
+    path = contact().path(mean_gap=[1e-7, -1, 1e-7])
+    assert next(path).number == 1
+    with pytest.raises(tabor.SceneError, match="mean_gap: -1"):
+        next(path)
+    assert list(path) == [] and "ended" in repr(path)

@@ -9,7 +9,7 @@ from typing import Any, ClassVar
 
 from .errors import SceneError, SurfaceError
 from .quantities import Quantity
-from .scene import Scene, field
+from .scene import Scene, control_at, field
 from .surfaces import HeightFile, Surface, counts, is_part, names_of, sides, tables_of
 from .topography import from_topography, is_topography
 from .wording import CONTACT, Wording
@@ -202,11 +202,9 @@ class Contact(Scene):
             rows, columns = values.shape
             grid["points"] = [columns, rows]
             surface = [{"kind": "flat"}]
-        # A load that nobody asks for: paths bring their own.
-        control = "force" if boundary == "free" else "pressure"
-        times = rate is not None or relaxation or (solid or {}).get("relaxation")
+        times = rate is not None or relaxation is not None or (solid or {}).get("relaxation") is not None
         instant = {"start": 0.0, "ramp": [{"hold": 1.0, "steps": 1}]} if times else {"path": [0.0]}
-        loading = loading or {"control": control, **instant}
+        loading = loading or {"control": control_at(boundary), **instant}
         if spring is not None:
             loading = {**loading, "control": "approach", "spring": spring}
         scene = {

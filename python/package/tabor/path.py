@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from .errors import NotConvergedWarning, TaborWarning
+from .errors import NotConvergedWarning, TaborError, TaborWarning
 from .progress import Report, reporter
 from .step import Step
 
@@ -23,7 +23,7 @@ Load = tuple[str, float, "float | None"]
 class Path:
     """Solves a load each time it is asked for the next `Step`: the iterator that `Contact.path` gives.
 
-    It ends after the last load, or after one that did not converge. It does not pickle, and once begun it does not go on
+    It ends after the last load, or after one that did not converge or was refused. It does not pickle, and once begun it does not go on
     in a fork; its contact and its steps do both.
     """
 
@@ -72,7 +72,9 @@ class Path:
             step = Step(found, self._periodic)
             self._solved += 1
             self._ended = not step.converged
-        except BaseException:
+        except BaseException as error:
+            # As of a generator: what is refused ends it.
+            self._ended = self._ended or isinstance(error, TaborError)
             self._open.close()
             raise
         finally:

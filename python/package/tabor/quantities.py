@@ -32,7 +32,7 @@ def si(value: Any, dimension: str, argument: str, error: type[TaborError] = Scen
         What is raised of a number that is not finite.
     """
     if isinstance(value, str):
-        return _tabor.quantity(value, dimension, argument)
+        return _quantity(value, dimension, argument, error)
     refuse_unit(value, dimension, argument, error)
     try:
         # Python reads b"1" as a number, and NumPy drops an imaginary part.
@@ -44,6 +44,13 @@ def si(value: Any, dimension: str, argument: str, error: type[TaborError] = Scen
     if not np.isfinite(number):
         raise error(f"{argument}: {number} is no finite number")
     return number
+
+
+def _quantity(text: str, dimension: str, argument: str, error: type[TaborError]) -> float:
+    try:
+        return _tabor.quantity(text, dimension, argument)
+    except UnicodeEncodeError as broken:
+        raise error(f"{argument}: this is no text ({broken})") from None
 
 
 def refuse_masked(values: Any, argument: str, error: type[TaborError] = SceneError) -> None:
@@ -83,7 +90,7 @@ def refuse_truths(values: npt.NDArray[Any], argument: str, error: type[TaborErro
 def si_array(values: Any, dimension: str, argument: str, error: type[TaborError] = SceneError) -> npt.NDArray[np.float64]:
     """SI values of a number, a text, or an array or sequence of them."""
     if isinstance(values, str):
-        return np.float64(_tabor.quantity(values, dimension, argument)) * np.ones(())
+        return np.float64(_quantity(values, dimension, argument, error)) * np.ones(())
     refuse_masked(values, argument, error)
     refuse_unit(values, dimension, argument, error)
     array = np.asarray(values)

@@ -18,7 +18,7 @@ import numpy.typing as npt
 from . import _tabor
 from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
-from .quantities import Quantity, refuse_masked, refuse_truths, refuse_unit, si, unit_of
+from .quantities import Quantity, refuse_masked, refuse_truths, refuse_unit, si, unit_of, words
 from .step import Step
 from .wording import Wording
 
@@ -140,6 +140,11 @@ def toml_text(tables: Mapping[str, Any], wording: Wording | None = None) -> str:
         return _tabor.toml_from_json(json.dumps(plain(tables, wording=wording)))
     except RecursionError as error:
         raise SceneError(f"a scene holds numbers, texts, lists and tables: {error}") from None
+
+
+def control_at(boundary: Any) -> str:
+    """What a load prescribes that nobody asks for: paths bring their own."""
+    return "force" if isinstance(boundary, str) and boundary == "free" else "pressure"
 
 
 def by_name(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
@@ -474,22 +479,22 @@ class Scene:
         resolved = self.resolved
         grid, solid, adhesion = resolved["grid"], resolved["solid"], resolved.get("adhesion")
         points = grid.get("points")
-        words = {
+        described = {
             "grid": "of its file" if points is None else f"{points[0]} x {points[1]} points, {grid['boundary']}",
-            "contact modulus": f"{solid['contact_modulus']:.4g} Pa" if "contact_modulus" in solid else "of a layer",
+            "contact modulus": words(solid["contact_modulus"], "Pa") if "contact_modulus" in solid else "of a layer",
             "adhesion": "none" if adhesion is None else str(adhesion["law"]),
         }
         if grid.get("size") is not None:
-            words["size"] = " x ".join(f"{side:.4g} m" for side in grid["size"])
+            described["size"] = " x ".join(words(side, "m") for side in grid["size"])
         if adhesion is not None and adhesion.get("work_of_adhesion") is not None:
-            words["work of adhesion"] = f"{adhesion['work_of_adhesion']:.4g} J/m^2"
-        return words
+            described["work of adhesion"] = words(adhesion["work_of_adhesion"], "J/m^2")
+        return described
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {', '.join(f'{name} {words}' for name, words in self._described().items())}>"
+        return f"<{type(self).__name__}: {', '.join(f'{name} {each}' for name, each in self._described().items())}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th style='text-align:left'>{name}</th><td>{words}</td></tr>" for name, words in self._described().items())
+        rows = "".join(f"<tr><th style='text-align:left'>{name}</th><td>{each}</td></tr>" for name, each in self._described().items())
         return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
 
 

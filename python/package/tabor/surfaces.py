@@ -13,7 +13,7 @@ import numpy.typing as npt
 from . import _tabor
 from .errors import SurfaceError, TaborError
 from .quantities import Quantity, si
-from .scene import Scene, field
+from .scene import Scene, control_at, field
 from .wording import CONTACT, Wording
 
 #: One side of a square, or two sides (x, y).
@@ -223,7 +223,7 @@ def _scene(parts: Any, grid: dict[str, Any], side: float | None, threads: int | 
         "grid": grid,
         "solid": {"contact_modulus": 1.0},
         "surface": tables_of(parts, side, "parts"),
-        "loading": {"control": "force" if grid.get("boundary") == "free" else "pressure", "path": [0.0]},
+        "loading": {"control": control_at(grid.get("boundary")), "path": [0.0]},
     }
     scene._of_tables(tables, Wording({**CONTACT, **names}), threads=threads)
     return scene
@@ -427,8 +427,8 @@ def self_affine_like(heights: Any, size: Size | None = None, *, boundary: str = 
 
 
 def _periodic(boundary: str) -> bool:
-    if boundary not in ("periodic", "free"):
-        raise SurfaceError(f'boundary: "{boundary}" is not one of periodic, free')
+    if not isinstance(boundary, str) or boundary not in ("periodic", "free"):
+        raise SurfaceError(f"boundary: {boundary!r} is not one of periodic, free")
     return boundary == "periodic"
 
 
