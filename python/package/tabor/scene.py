@@ -142,6 +142,18 @@ def toml_text(tables: Mapping[str, Any], wording: Wording | None = None) -> str:
         raise SceneError(f"a scene holds numbers, texts, lists and tables: {error}") from None
 
 
+def checked_overrides(overrides: Any) -> Mapping[str, Any]:
+    """Values by dotted keys."""
+    if overrides is None:
+        return {}
+    if not isinstance(overrides, Mapping) or not all(isinstance(key, str) for key in overrides):
+        raise SceneError(f'overrides: values by dotted keys are expected, such as {{"grid.points": 128}}, not {overrides!r}')
+    for key, value in overrides.items():
+        if value is None:
+            raise SceneError(f'overrides["{key}"]: a value is expected, not None')
+    return overrides
+
+
 def control_at(boundary: Any) -> str:
     """What a load prescribes that nobody asks for: paths bring their own."""
     return "force" if isinstance(boundary, str) and boundary == "free" else "pressure"
@@ -240,7 +252,7 @@ class Scene:
             raise SceneError(f"{path}: cannot be read: {error}") from error
         scene = cls.__new__(cls)
         chosen = [
-            (key, value if isinstance(value, str) else json.dumps(plain(value, key))) for key, value in (overrides or {}).items()
+            (key, value if isinstance(value, str) else json.dumps(plain(value, key))) for key, value in checked_overrides(overrides).items()
         ]
         # Files are read when they are asked for, perhaps from another working directory.
         there = Path(_here()) / path
@@ -294,7 +306,7 @@ class Scene:
             raise OutputError(f"{path}: cannot be written: {error}") from error
 
     def check(self, *, verbose: bool = False) -> str:
-        """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost.
+        """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost. It warns by `TaborWarning`.
 
         Parameters
         ----------
@@ -304,8 +316,8 @@ class Scene:
         from .disk import scene_on_disk
         from .program import call
 
-        with scene_on_disk(self) as (path, words):
-            return call(["check", path, *words, *(["--verbose"] if verbose else [])], quiet=True)
+        with scene_on_disk(self) as (path, words, tell):
+            return call(["check", path, *words, *(["--verbose"] if verbose else [])], True, tell)
 
     @classmethod
     def new(cls, kind: str, folder: str | os.PathLike[str]) -> Scene:
@@ -320,7 +332,7 @@ class Scene:
         """
         from .program import call
 
-        call(["new", str(kind), os.fspath(folder)], quiet=True)
+        call(["new", str(kind), os.fspath(folder)], True)
         return cls.read(Path(folder) / "scene.toml")
 
     def surface(self) -> tuple[Array, tuple[float, float]]:

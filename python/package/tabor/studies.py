@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from . import tables
-from .disk import operand, out_word, scene_on_disk, set_words, told_without
+from .disk import Tell, operand, out_word, scene_on_disk, set_words, told_without
 from .errors import OutputError, SceneError
 from .optional import package
 from .program import call
@@ -72,10 +72,10 @@ def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[st
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
-        Whether what the command line says is held back.
+        Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
-    with scene_on_disk(scene) as (path, words):
-        call(["compare", path, out_word(folder), *words, *set_words(overrides)], quiet)
+    with scene_on_disk(scene) as (path, words, tell):
+        call(["compare", path, out_word(folder), *words, *set_words(overrides)], quiet, tell)
     return Study(folder)
 
 
@@ -100,13 +100,13 @@ def accuracy(
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
-        Whether what the command line says is held back.
+        Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
     seconds = si(budget, "time", "budget")
     if seconds <= 0:
         raise SceneError("budget: must be more than zero")
-    with scene_on_disk(scene) as (path, words):
-        call(["accuracy", path, out_word(folder), f"--budget={seconds!r} s", *words, *set_words(overrides)], quiet)
+    with scene_on_disk(scene) as (path, words, tell):
+        call(["accuracy", path, out_word(folder), f"--budget={seconds!r} s", *words, *set_words(overrides)], quiet, tell)
     return Study(folder)
 
 
@@ -140,7 +140,7 @@ def sweep(
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
-        Whether what the command line says is held back.
+        Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
     import contextlib
     import tempfile
@@ -152,20 +152,25 @@ def sweep(
         options += ["--merge", *(operand(each) for each in merge)]
     with contextlib.ExitStack() as until_done:
         words: list[str] = []
+        tell: Tell = str
         if isinstance(study, Mapping):
             tables = dict(study)
             if "scene" in tables:
                 if isinstance(tables["scene"], Scene) and tables["scene"].has_arrays:
                     words_of_files = "save the array by numpy.save and give the contact its path, by which the study is known again"
                     raise SceneError(f"study: its scene holds an array; {words_of_files}")
-                scene, words = until_done.enter_context(scene_on_disk(tables["scene"]))
+                scene, words, tell_of_scene = until_done.enter_context(scene_on_disk(tables["scene"]))
                 tables["scene"] = os.path.abspath(scene)
             path = Path(until_done.enter_context(tempfile.TemporaryDirectory())) / "study.toml"
             path.write_text(toml_text(tables), encoding="utf-8")
-            until_done.enter_context(told_without(path, _of_study))
+            tell_of_study = told_without(path, _of_study)
+
+            def tell(text: str) -> str:
+                return tell_of_scene(tell_of_study(text))
+
         else:
             path = Path(study)
-        call(["sweep", operand(path), out_word(folder), *options, *words, *set_words(overrides)], quiet)
+        call(["sweep", operand(path), out_word(folder), *options, *words, *set_words(overrides)], quiet, tell)
     return Study(folder)
 
 
