@@ -9,9 +9,10 @@ from typing import Any, ClassVar
 
 from .errors import SceneError, SurfaceError
 from .quantities import Quantity
-from .scene import Scene, control_at, field
+from .scene import Scene, control_at
 from .surfaces import HeightFile, Surface, counts, is_part, names_of, sides, tables_of
 from .topography import from_topography, is_topography
+from .values import field
 from .wording import CONTACT, Wording
 
 #: Tables of a scene that a contact has arguments for.

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from . import _tabor
-from .scene import Scene, checked_overrides, toml_text
+from .scene import Scene
+from .values import checked_overrides, toml_text
 
 
 #: Where a parser stopped in a text.

@@ -16,7 +16,8 @@ from .errors import OutputError, SceneError
 from .optional import package
 from .program import call
 from .quantities import Quantity, si
-from .scene import Scene, thread_count, toml_text
+from .scene import Scene
+from .values import thread_count, toml_text
 
 
 class Study:

@@ -13,7 +13,8 @@ import numpy.typing as npt
 from . import _tabor
 from .errors import SurfaceError, TaborError
 from .quantities import Quantity, si
-from .scene import Scene, control_at, field
+from .scene import Scene, control_at
+from .values import field
 from .wording import CONTACT, Wording
 
 #: One side of a square, or two sides (x, y).

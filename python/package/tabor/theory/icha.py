@@ -13,8 +13,8 @@ import numpy as np
 from .. import _tabor
 from ..errors import NotConvergedWarning, TheoryError
 from ..quantities import Floats, Quantities, si_array
-from ..scene import field
 from ..surfaces import Size, sides
+from ..values import field
 
 
 class Pressed(NamedTuple):
