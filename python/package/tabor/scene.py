@@ -432,5 +432,5 @@ def _control(**loads: Any) -> tuple[str, Any] | None:
 
 
 def _warn(said: Iterable[str]) -> None:
-    for words in said:
-        warnings.warn(words, TaborWarning, stacklevel=4)
+    for each in said:
+        warnings.warn(each, TaborWarning, stacklevel=4)
