@@ -163,6 +163,12 @@ pub enum UnitError {
         /// What was expected.
         expected: Dimension,
     },
+    /// What is no share from 0 to 1.
+    #[error("{text} must be a share, such as 0.1 or 10%")]
+    NoShare {
+        /// The text, quoted.
+        text: String,
+    },
     /// A value too large for a 64-bit number.
     #[error("{text} is too large; give {expected}, such as {}", expected.example())]
     NotFinite {
@@ -377,6 +383,22 @@ pub fn parse_quantity(text: &str, expected: Dimension) -> Result<f64, UnitError>
     }
 }
 
+/// A share from 0 to 1, as a number or in per cent: `0.1` or `10%`.
+///
+/// # Errors
+/// [`UnitError::NoShare`].
+pub fn parse_share(text: &str) -> Result<f64, UnitError> {
+    let (number, unit) = match text.trim().strip_suffix('%') {
+        Some(number) => (number.trim(), 0.01),
+        None => (text.trim(), 1.0),
+    };
+    let share = number.parse().map(|number: f64| number * unit);
+    share
+        .ok()
+        .filter(|share| (0.0..=1.0).contains(share))
+        .ok_or_else(|| UnitError::NoShare { text: quoted(text) })
+}
+
 /// SI value and dimension of a text with a unit of any dimension; `None` for other texts.
 #[cfg(feature = "cli")]
 pub(crate) fn parse_any_quantity(text: &str) -> Option<(f64, Dimension)> {
@@ -514,6 +536,17 @@ fn trim_zeros(number: &str) -> &str {
 mod tests {
     use super::Dimension::*;
     use super::*;
+
+    #[test]
+    fn shares_are_numbers_or_per_cent() {
+        for text in ["0.1", "10%", " 10 % ", "1e-1"] {
+            assert_eq!(parse_share(text), Ok(0.1), "{text}");
+        }
+        for text in ["1.1", "-1%", "101 %", "nan", "%", "0,1", "1 um"] {
+            let refused = Err(UnitError::NoShare { text: quoted(text) });
+            assert_eq!(parse_share(text), refused);
+        }
+    }
 
     #[test]
     fn quantities_are_the_nearest_double() {

@@ -1,6 +1,7 @@
 //! Force curves fitted.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use pyo3::prelude::*;
 use tabor::fit::{
@@ -9,6 +10,7 @@ use tabor::fit::{
 };
 
 use crate::errors;
+use crate::surface::apart;
 
 /// What to fit, and how; lengths in m, angles in rad.
 #[derive(FromPyObject)]
@@ -36,7 +38,7 @@ type Fitted = (String, String, String, Vec<String>);
 
 /// Fits a file, or the CSV `text` of a curve that messages call `path`.
 #[pyfunction]
-pub fn fit(py: Python<'_>, path: PathBuf, text: Option<&str>, how: How) -> PyResult<Fitted> {
+pub fn fit(py: Python<'_>, path: PathBuf, text: Option<String>, how: How) -> PyResult<Fitted> {
     let refused = |words: &str| errors::raise(py, "FitError", words);
     let mut columns = CurveColumns::default();
     (columns.sensitivity, columns.spring) = (how.sensitivity, how.spring);
@@ -55,7 +57,8 @@ pub fn fit(py: Python<'_>, path: PathBuf, text: Option<&str>, how: How) -> PyRes
         },
         _ => Indenter::from(how.tip_size),
     };
-    let solve = || -> Result<FitResult, FitError> {
+    let named = path.clone();
+    let solve = move || -> Result<FitResult, FitError> {
         let curve = match text {
             Some(text) => ForceCurve::parse(text.as_bytes(), &path, &columns)?,
             None => ForceCurve::read_columns(&path, &columns)?,
@@ -69,12 +72,11 @@ pub fn fit(py: Python<'_>, path: PathBuf, text: Option<&str>, how: How) -> PyRes
         (request.relaxation, request.advise) = (how.relaxation, how.advise);
         request.fit(&curve, &path, tip)
     };
-    let mut result = py
-        .detach(solve)
-        .map_err(|error| refused(&error.to_string()))?;
+    let mut result =
+        apart(py, &Arc::default(), solve)?.map_err(|error| refused(&error.to_string()))?;
     let warnings = std::mem::take(&mut result.warnings);
     Ok((
-        report(&result, &path).to_string(),
+        report(&result, &named).to_string(),
         table(&result),
         headline(&result),
         warnings,

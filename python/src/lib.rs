@@ -27,7 +27,7 @@ mod _tabor {
     #[pymodule_export]
     use super::pictures::colours;
     #[pymodule_export]
-    use super::quantity::quantity;
+    use super::quantity::{quantity, share};
     #[pymodule_export]
     use super::run::{command_line, run};
     #[pymodule_export]

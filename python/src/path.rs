@@ -52,6 +52,8 @@ pub struct SolvedPath {
     heights: Option<Py<PyArray2<f64>>>,
     keeps_shape: bool,
     warned: usize,
+    /// Who tells messages about its scene and its loads.
+    teller: Option<Py<PyAny>>,
 }
 
 impl SolvedPath {
@@ -62,6 +64,7 @@ impl SolvedPath {
         loaded: &LoadedScene,
         threads: Option<usize>,
         until_apart: bool,
+        teller: Option<Py<PyAny>>,
     ) -> Self {
         let (loads, talk) = (Loads::default(), Arc::new(Talk::default()));
         let heard = Arc::clone(&talk);
@@ -81,6 +84,7 @@ impl SolvedPath {
             heights: None,
             keeps_shape: loaded.scene.solid.hardness.is_none(),
             warned: 0,
+            teller,
         }
     }
 }
@@ -155,7 +159,7 @@ impl SolvedPath {
         }
         match solved {
             Some(Ok(solution)) => Ok(Some((self.step(py, solution)?, warnings))),
-            Some(Err(error)) => Err(errors::of_contact(py, &error)),
+            Some(Err(error)) => Err(errors::of_contact(py, self.teller.as_ref(), &error)),
             None => Ok(None),
         }
     }

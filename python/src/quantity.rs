@@ -1,7 +1,7 @@
 //! Text with units to SI.
 
 use pyo3::prelude::*;
-use tabor::units::{Dimension, parse_quantity};
+use tabor::units::{Dimension, parse_quantity, parse_share};
 
 use crate::errors;
 
@@ -35,5 +35,12 @@ pub fn quantity(py: Python<'_>, text: &str, dimension: &str, argument: &str) -> 
         ));
     };
     parse_quantity(text, *dimension)
+        .map_err(|error| errors::raise(py, "QuantityError", &format!("{argument}: {error}")))
+}
+
+/// A share from 0 to 1 of a text such as "0.1" or "10%".
+#[pyfunction]
+pub fn share(py: Python<'_>, text: &str, argument: &str) -> PyResult<f64> {
+    parse_share(text)
         .map_err(|error| errors::raise(py, "QuantityError", &format!("{argument}: {error}")))
 }

@@ -82,11 +82,11 @@ pub fn run(
         said,
     };
     Lent::check(py, &scene.lent)?;
-    let scene = scene.scene.clone();
+    let (teller, scene) = (scene.teller(), scene.scene.clone());
     let end = wait(py, &talk, progress, move || {
         tabor::run_with(scene, &folder, &options, &mut hearer)
     })?;
-    let end = end.map_err(|error| errors::of_run(py, &error))?;
+    let end = end.map_err(|error| errors::of_run(py, teller, &error))?;
     let trouble = match end.status {
         RunStatus::Finished => None,
         RunStatus::NotConverged {

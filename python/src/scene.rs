@@ -9,7 +9,7 @@ use tabor::scene::{AdhesionMap, Scene, SurfacePart};
 use tabor::{Contact, ContactError, Control};
 
 use crate::arrays::{Lent, array};
-use crate::errors;
+use crate::errors::{self, Teller};
 use crate::path::SolvedPath;
 use crate::waiting::{Talk, wait};
 
@@ -19,6 +19,15 @@ pub struct LoadedScene {
     pub scene: Scene,
     /// The arrays that it shares with whoever gave them.
     pub lent: Vec<Lent>,
+    /// Who tells messages about it.
+    teller: Option<Py<PyAny>>,
+}
+
+impl LoadedScene {
+    /// Who tells messages about it.
+    pub fn teller(&self) -> Teller<'_> {
+        self.teller.as_ref()
+    }
 }
 
 /// A surface that was built: heights, size of its cell, warnings.
@@ -26,9 +35,10 @@ type Built<'py> = (Bound<'py, PyArray2<f64>>, [f64; 2], Vec<String>);
 
 #[pymethods]
 impl LoadedScene {
-    /// Reads the text of a scene, which messages call `name`; paths in it are relative to `folder`.
+    /// Reads the text of a scene; paths in it are relative to `folder`. Messages call it `name`, or `teller` tells them.
     #[new]
-    #[pyo3(signature = (text, name, folder, overrides, heights=None, factors=None))]
+    #[pyo3(signature = (text, name, folder, overrides, heights=None, factors=None, teller=None))]
+    #[expect(clippy::too_many_arguments, reason = "Python names each of them")]
     fn new(
         py: Python<'_>,
         text: &str,
@@ -37,9 +47,11 @@ impl LoadedScene {
         overrides: Vec<(String, String)>,
         heights: Option<&Bound<'_, PyArray2<f64>>>,
         factors: Option<&Bound<'_, PyArray2<f64>>>,
+        teller: Option<Py<PyAny>>,
     ) -> PyResult<Self> {
-        let mut scene = Scene::parse(text, name, FilePath::new(folder), &overrides)
-            .map_err(|mistakes| errors::of_scene(py, &mistakes))?;
+        let refused = |mistakes| errors::of_scene(py, teller.as_ref(), &mistakes);
+        let mut scene =
+            Scene::parse(text, name, FilePath::new(folder), &overrides).map_err(refused)?;
         let mut lent = Vec::new();
         if let Some(heights) = heights {
             let heights = Lent::new(heights, "heights")?;
@@ -56,10 +68,12 @@ impl LoadedScene {
             adhesion.map = Some(AdhesionMap::Factors(factors.values()));
             lent.push(factors);
         }
-        scene
-            .check()
-            .map_err(|mistakes| errors::of_scene(py, &mistakes))?;
-        Ok(LoadedScene { scene, lent })
+        scene.check().map_err(refused)?;
+        Ok(LoadedScene {
+            scene,
+            lent,
+            teller,
+        })
     }
 
     /// The scene with every default filled in, SI, as JSON.
@@ -77,10 +91,16 @@ impl LoadedScene {
             .collect()
     }
 
-    /// A path, to be solved load by load.
-    #[pyo3(signature = (threads=None, until_apart=false))]
-    fn path(&self, py: Python<'_>, threads: Option<usize>, until_apart: bool) -> SolvedPath {
-        SolvedPath::new(py, self, threads, until_apart)
+    /// A path, to be solved load by load, of which `teller` tells.
+    #[pyo3(signature = (threads=None, until_apart=false, teller=None))]
+    fn path(
+        &self,
+        py: Python<'_>,
+        threads: Option<usize>,
+        until_apart: bool,
+        teller: Option<Py<PyAny>>,
+    ) -> SolvedPath {
+        SolvedPath::new(py, self, threads, until_apart, teller)
     }
 
     /// The heights of all parts, m, as an array of shape (ny, nx), (lx, ly), m, and warnings.
@@ -94,7 +114,7 @@ impl LoadedScene {
                 .map_err(ContactError::from)
                 .and_then(|built| built.map_err(ContactError::from))
         })?;
-        let surface = built.map_err(|error| errors::of_contact(py, &error))?;
+        let surface = built.map_err(|error| errors::of_contact(py, self.teller(), &error))?;
         let (grid, warnings) = (surface.grid, surface.warnings);
         let heights = surface.heights.into_vec();
         Ok((array(py, heights, grid.points())?, grid.size(), warnings))

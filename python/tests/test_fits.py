@@ -52,6 +52,10 @@ def test_masked_points_are_missing():
     assert tabor.fit((approach, masked), radius="10 um").work_of_adhesion == tabor.fit((approach[~junk], force[~junk]), radius="10 um").work_of_adhesion
 
 
+def test_a_list_is_a_curve_too():
+    assert tabor.fit(list(curve()), radius="10 um").work_of_adhesion == tabor.fit(curve(), radius="10 um").work_of_adhesion
+
+
 def test_a_share_may_be_in_per_cent():
     widened = [tabor.fit(curve(), radius="10 um", spring_error=share) for share in (0.1, "10%", " 10 % ")]
     alone = tabor.fit(curve(), radius="10 um")
@@ -97,9 +101,17 @@ def test_pictures():
         (lambda: tabor.fit({"force": np.zeros(20)}, radius=1e-5), "approach"),
         (lambda: tabor.fit(3.0, radius=1e-5), "curve"),
         (lambda: tabor.fit("none.csv", radius=1e-5), "none.csv"),
-        (lambda: tabor.fit(curve(), radius=1e-5, spring_error=10), "spring_error: 10 must be a share"),
+        (lambda: tabor.fit(curve(), radius=1e-5, spring_error=10), 'spring_error: "10.0" must be a share'),
         (lambda: tabor.fit(curve(), radius=1e-5, radius_error="ten %"), "radius_error"),
         (lambda: tabor.fit(curve(), radius=1e-5, columns=["depth=1"]), "columns"),
+        (lambda: tabor.fit(curve(), radius=1e-5, columns=[1]), r"columns: a list of texts .* not \[1\]"),
+        (lambda: tabor.fit(curve(), radius=1e-5, range=-1e-9), "range: -1e-09 is not above zero"),
+        (lambda: tabor.fit(curve(), radius=1e-5, spring=0), "spring: 0 is not above zero"),
+        (lambda: tabor.fit(curve(), radius=1e-5, baseline="no"), "baseline: True or False is expected, not 'no'"),
+        (lambda: tabor.fit(curve(), cone="70 deg", range=1e-9), "range: of spheres only"),
+        (lambda: tabor.fit(np.array(curve()), radius=1e-5), r"curve: .* \(approach, force\) are expected, not ndarray"),
+        (lambda: tabor.fit((curve()[0] + 0j, curve()[1]), radius=1e-5), "approach: real numbers are expected, not complex128"),
+        (lambda: tabor.fit((curve()[0], np.inf * curve()[1]), radius=1e-5), "force: .* values are infinite; what is missing is NaN"),
     ],
 )
 def test_mistakes_name_what_is_wrong(call, words):

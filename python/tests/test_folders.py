@@ -38,8 +38,13 @@ def test_a_run_is_read_back(run):
     assert field.mean() == pytest.approx(2e6, rel=1e-5)
     assert run.field("pressure", 1).mean() == pytest.approx(1e6, rel=1e-5)
     assert len(run.to_frame()) == 2
-    with pytest.raises(tabor.OutputError, match="displacement"):
-        run.field("displacement")
+    for name, step, words in (
+        ("displacement", None, r'displacement is not there; it holds gap, pressure; \[output\] fields = \["displacement"\] writes it'),
+        ("presure", None, "presure is no field; a run has pressure, gap, displacement, heights"),
+        ("pressure", 3, "step 3 has no pressure; steps that have it are 1, 2$"),
+    ):
+        with pytest.raises(tabor.OutputError, match=words):
+            run.field(name, step)
 
 
 def test_a_path_is_the_run(run):
@@ -165,7 +170,8 @@ def test_scenes_of_arrays_and_tables_are_checked_and_studied(tmp_path, monkeypat
     of_a_file = {**SCENE, "surface": [{"kind": "file", "path": "map.npy"}]}
     assert tabor.Scene(of_a_file).check() == tabor.Contact("map.npy", "4 um", contact_modulus="100 MPa", law=law, loading=loading).check()
     tabor.Scene(SCENE).write("scene.toml")
-    assert "16 x 16" in tabor.Scene.read("scene.toml", {"grid.points": 16}).check()
+    with pytest.warns(tabor.TaborWarning, match="^the shortest wave of the surface has 4.0 pixels"):
+        assert "16 x 16" in tabor.Scene.read("scene.toml", {"grid.points": 16}).check()
     tables = [tabor.compare(scene, tmp_path / f"compared{index}")["compare"] for index, scene in enumerate([of_a_file, tabor.Scene(of_a_file)])]
     np.testing.assert_array_equal(tables[0]["contact_area_fraction"], tables[1]["contact_area_fraction"])
     hard = tabor.Contact(heights, "4 um", contact_modulus="100 MPa", loading={"control": "pressure", "path": ["1 MPa"]})
@@ -178,6 +184,32 @@ def test_scenes_of_arrays_and_tables_are_checked_and_studied(tmp_path, monkeypat
     assert len(whole["runs"]) == 2
     with pytest.raises(tabor.SceneError, match="study: its scene holds an array"):
         tabor.sweep({**study, "scene": hard}, tmp_path / "another")
+
+
+def test_studies_warn_where_they_are_called(tmp_path):
+    coarse = tabor.Contact(
+        tabor.SelfAffine(rms_slope=0.1, shortest="1 um"),
+        "4 um",
+        points=16,
+        contact_modulus="100 MPa",
+        law=tabor.MaugisDugdale("20 mJ/m^2", range="auto"),
+        loading={"control": "pressure", "path": ["1 MPa"]},
+    )
+    for study in (lambda: coarse.check(), lambda: tabor.compare(coarse, tmp_path / "compare")):
+        with pytest.warns(tabor.TaborWarning) as told:
+            study()
+        assert {warning.filename for warning in told} == {__file__}
+        said = [str(warning.message) for warning in told]
+        assert any(words.startswith("the shortest wave of the surface has 4.0 pixels") for words in said)
+        assert any(words.startswith('range="auto" stands for') for words in said), said
+    axis = {"key": "surface.0.seed", "values": [1, 2]}
+    with pytest.warns(tabor.TaborWarning, match="^study: finished cases with warnings: 2; see the column message of runs.csv$"):
+        tabor.sweep({"scene": coarse, "axis": [axis]}, tmp_path / "sweep", jobs=1)
+    with pytest.raises(tabor.SceneError, match="name another folder, or move this one away$"):
+        tabor.sweep({"scene": coarse, "axis": [axis | {"values": [3]}]}, tmp_path / "sweep")
+    for wrong in (3, {3: 4}, {"grid.points": None}):
+        with pytest.raises(tabor.SceneError, match="^overrides"):
+            tabor.compare(coarse, tmp_path / "none", overrides=wrong)
 
 
 @pytest.mark.parametrize("kind", ["sphere", "rough", "afm", "pillars", "seal", "mems"])

@@ -186,3 +186,24 @@ def test_topographies_of_files(name, turned):
     if turned:
         both = tuple(np.sort(heights, axis=None) for heights in both)
     np.testing.assert_allclose(*both, atol=1e-9 * np.ptp(ours.heights))
+
+
+def test_what_is_refused_ends_a_path():
+    path = contact().path(mean_gap=[1e-7, -1, 1e-7])
+    assert next(path).number == 1
+    with pytest.raises(tabor.SceneError, match="mean_gap: -1"):
+        next(path)
+    assert list(path) == [] and "ended" in repr(path)
+
+
+def test_a_dataset_goes_into_a_file(tmp_path):
+    pytest.importorskip("netCDF4")
+    xarray = pytest.importorskip("xarray")
+    rubbing = tabor.Contact(contact().heights(), ("4 um", "3 um"), contact_modulus="100 MPa", friction={"shear_strength": "1 MPa"})
+    solved = rubbing.solve(pressure="1 MPa")
+    solved.to_dataset().to_netcdf(tmp_path / "step.nc")
+    with xarray.open_dataset(tmp_path / "step.nc") as data:
+        np.testing.assert_array_equal(data["pressure"], solved.pressure)
+        assert data.attrs["converged"] == 1 and data.attrs["state"] == "contact"
+        # What effects add is there too.
+        assert data.attrs["friction_force"] == solved.friction_force

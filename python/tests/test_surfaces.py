@@ -62,7 +62,7 @@ def test_files_are_read(tmp_path):
     [
         (lambda: tabor.heights(tabor.Sphere("-1 um"), (8, 8), "1 um"), "radius"),
         (lambda: tabor.heights(tabor.Sphere("1 um"), (8, 8), "-1 um"), "size"),
-        (lambda: tabor.heights([], (8, 8), "1 um"), "surface"),
+        (lambda: tabor.heights([], (8, 8), "1 um"), r'^parts: is empty; add for example Sphere\("1 um"\)'),
         (lambda: tabor.heights({"kind": "speher"}, (8, 8), "1 um"), "did you mean"),
         (lambda: tabor.heights(tabor.Flat(), (8, 8), "1 um", boundary="round"), "boundary"),
         (lambda: tabor.self_affine((8, 8), "1 um", shortest="0.1 um"), "rms"),

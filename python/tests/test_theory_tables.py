@@ -45,6 +45,14 @@ def test_layers():
     assert theory.layer.bonded(q[:, None], nu[None, :]).shape == (q.size, nu.size)
 
 
+def test_a_lennard_jones_sphere_forgets_other_approaches():
+    sphere = (1.0, 0.1**-1.5, 1.0, 1.0)
+    force = theory.lennard_jones_sphere.at_approach(*sphere, 0.5).force
+    # Its curve goes deeper, and has other points.
+    theory.lennard_jones_sphere.at_approach(*sphere, 5.0)
+    assert theory.lennard_jones_sphere.at_approach(*sphere, 0.5).force == force
+
+
 @pytest.mark.parametrize("mu", [0.1, 0.5])
 def test_lennard_jones_sphere(mu):
     # Range, radius and work of adhesion 1: the modulus that makes this Tabor parameter.

@@ -7,7 +7,7 @@ use clap::Args;
 
 use super::fit_folder::fit_folder;
 use super::patience::Patience;
-use super::quantity::{positive, quantity, share};
+use super::quantity::{positive, quantity};
 use super::{Failure, folder_or_default, print, say, warn};
 use crate::fit::advice::Advice;
 use crate::fit::{
@@ -16,7 +16,7 @@ use crate::fit::{
 };
 use crate::output::{expect_apart, expect_table, write_atomically};
 use crate::theory::jkr;
-use crate::units::{Dimension, angle_from_number, parse_quantity};
+use crate::units::{Dimension, angle_from_number, parse_quantity, parse_share};
 
 /// What `tabor fit` takes.
 #[derive(Debug, Args)]
@@ -57,10 +57,10 @@ pub(super) struct FitArguments {
     #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), conflicts_with = "pull_off")]
     spring: Option<f64>,
     /// Relative standard deviation of the spring constant, as in 10%
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, conflicts_with = "pull_off")]
+    #[arg(long, value_name = "SHARE", value_parser = parse_share, default_value = "0", hide_default_value = true, conflicts_with = "pull_off")]
     spring_error: f64,
     /// Relative standard deviation of the radius
-    #[arg(long, value_name = "SHARE", value_parser = share, default_value = "0", hide_default_value = true, conflicts_with_all = ["cone", "pyramid", "pull_off"])]
+    #[arg(long, value_name = "SHARE", value_parser = parse_share, default_value = "0", hide_default_value = true, conflicts_with_all = ["cone", "pyramid", "pull_off"])]
     radius_error: f64,
     /// Fit one relaxation time of the solid to the loading beside; the curve needs a column time
     #[arg(long, conflicts_with = "pull_off")]

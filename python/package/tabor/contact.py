@@ -9,9 +9,19 @@ from typing import Any, ClassVar
 
 from .errors import SceneError, SurfaceError
 from .quantities import Quantity
-from .scene import Scene, field
-from .surfaces import HeightFile, Surface, counts, is_part, sides, tables_of
+from .scene import Scene, control_at
+from .surfaces import HeightFile, Surface, counts, is_part, names_of, sides, tables_of
 from .topography import from_topography, is_topography
+from .values import field
+from .wording import CONTACT, Wording
+
+#: Tables of a scene that a contact has arguments for.
+TABLES = {
+    "grid": "size, points and boundary",
+    "surface": "heights",
+    "adhesion": 'law, such as law=MaugisDugdale("50 mJ/m^2", range="5 nm")',
+    "solver": "tolerance, max_iterations, precision and backend",
+}
 
 
 @dataclass(frozen=True)
@@ -64,7 +74,8 @@ class Contact(Scene):
     heights : array of shape (ny, nx), a Surface, a file, a part or list of parts, or a Topography of SurfaceTopography
         Heights in metres, positive towards the solid; any array of numbers. One of float64 in C order is shared, not
         copied; of another type, such as float32, or in another order one copy is made, of float64, in which the solver reads
-        heights whatever its precision. A shared array must stay as it is: once it has been written to, the contact
+        heights whatever its precision. Refused are float16, whose steps are 60 nm and more in metres, truth values, and
+        arrays with a unit other than m (of astropy, pint, unyt or xarray), which NumPy would drop. A shared array must stay as it is: once it has been written to, the contact
         refuses to solve. Give ``heights.copy()`` where you will go on writing. A file (its path, or a `HeightFile`) and
         parts such as ``Sphere("1 um")`` are what they are in a scene.
     size : number or text, or two of them
@@ -95,7 +106,8 @@ class Contact(Scene):
     rate : mapping, optional
         How the work of adhesion grows with the speed of a receding edge: the keys of ``[adhesion.rate]``.
     adhesion_map : array of shape (ny, nx), file or mapping, optional
-        A factor on the tension of the law at each point; an array is shared as the heights are, and a mapping is a pattern:
+        A factor on the tension of the law at each point, or truth values: whether the law acts there. An array is shared as the
+        heights are, and a mapping is a pattern:
         ``{"pattern": "checker", "period": "1 um", "low": 0, "high": 1}``.
     spring : number or text, optional
         Stiffness of a spring between the prescribed approach and the body, N/m.
@@ -151,12 +163,14 @@ class Contact(Scene):
         if isinstance(heights, Surface):
             size = heights.size if size is None else size
             heights = heights.heights
+        names = {}
         if isinstance(heights, (str, os.PathLike)):
-            if not os.path.isfile(heights):
-                words = "is a folder" if os.path.isdir(heights) else "there is no such file"
-                raise SurfaceError(f"heights: {os.fspath(heights)}: {words}")
+            names = {"surface.0": "heights"}
+            _refuse_no_file(heights, "heights")
             heights = HeightFile(heights)
         boundary = "periodic" if boundary is None else boundary
+        for name in TABLES.keys() & tables:
+            raise SceneError(f"{name}: a contact takes {TABLES[name]}")
         for name, table in (("solid", solid), ("loading", loading)):
             if table is not None and not isinstance(table, Mapping):
                 raise SceneError(f"{name}: a mapping of the keys of [{name}] is expected, not {table!r}")
@@ -166,30 +180,32 @@ class Contact(Scene):
             for name, value in (("treatment", treatment), ("rate", rate), ("adhesion_map", adhesion_map)):
                 if value is not None:
                     raise SceneError(f"{name}: it needs a law, such as law=MaugisDugdale(...)")
+        if law is not None:
+            names["adhesion"] = f"{type(law).__name__}."
         adhesion = None if law is None else law.table() | {"treatment": treatment, "rate": rate}
         if adhesion is not None and isinstance(adhesion_map, Mapping):
             adhesion["map"], adhesion_map = adhesion_map, None
         elif adhesion is not None and isinstance(adhesion_map, (str, os.PathLike)):
+            _refuse_no_file(adhesion_map, "adhesion_map")
             adhesion["map"], adhesion_map = os.path.abspath(adhesion_map), None
         grid: dict[str, Any] = {"size": size, "boundary": boundary}
         if is_part(heights):
             grid["points"] = None if points is None else counts(points)
-            surface = tables_of(heights, None if size is None else min(sides(size, error=SceneError)))
-            values = None
+            surface = tables_of(heights, None if size is None else min(sides(size, error=SceneError)), "heights")
+            values, names = None, names_of(heights, "heights") | names
         else:
             if points is not None:
                 raise SceneError("points: an array has its own; they are for parts such as Sphere")
             if size is None:
                 raise SceneError("size: the lengths of the cell are expected")
-            values = field(heights, "heights")
+            values = field(heights, "heights", "length")
+            names |= {"surface.0": "heights", "grid.points": "heights"}
             rows, columns = values.shape
             grid["points"] = [columns, rows]
             surface = [{"kind": "flat"}]
-        # A load that nobody asks for: paths bring their own.
-        control = "force" if boundary == "free" else "pressure"
-        times = rate is not None or relaxation or (solid or {}).get("relaxation")
+        times = rate is not None or relaxation is not None or (solid or {}).get("relaxation") is not None
         instant = {"start": 0.0, "ramp": [{"hold": 1.0, "steps": 1}]} if times else {"path": [0.0]}
-        loading = loading or {"control": control, **instant}
+        loading = loading or {"control": control_at(boundary), **instant}
         if spring is not None:
             loading = {**loading, "control": "approach", "spring": spring}
         scene = {
@@ -212,18 +228,10 @@ class Contact(Scene):
             "solver": {"tolerance": tolerance, "max_iterations": max_iterations, "precision": precision, "backend": backend},
             **tables,
         }
-        try:
-            super().__init__(scene, heights=values, adhesion_map=adhesion_map, threads=threads)
-        except SceneError as error:
-            raise SceneError(f"{error}{_meant(tables, str(error))}") from None
+        self._of_tables(scene, Wording(CONTACT | names), values, adhesion_map, threads)
 
 
-def _meant(tables: Mapping[str, Any], words: str) -> str:
-    """What to add to a message of a scene that does not know the name of a table: arguments of a contact like it."""
-    import difflib
-    import inspect
-
-    arguments = [name for name in inspect.signature(Contact).parameters if name != "tables"]
-    unknown = [name for name in tables if f"{name}: unknown key in the scene itself" in words]
-    near = [(name, difflib.get_close_matches(name, arguments, 1)) for name in unknown]
-    return "".join(f"\nof the arguments of a contact, {found[0]} is like {name}" for name, found in near if found)
+def _refuse_no_file(path: str | os.PathLike[str], argument: str) -> None:
+    if not os.path.isfile(path):
+        words = "is a folder" if os.path.isdir(path) else "there is no such file"
+        raise SurfaceError(f"{argument}: {os.fspath(path)}: {words}")

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator, Mapping
+import re
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -12,13 +13,22 @@ from typing import Any
 import numpy as np
 
 from . import _tabor
-from .scene import Scene, toml_text
+from .scene import Scene
+from .values import checked_overrides, toml_text
+
+
+#: Where a parser stopped in a text.
+SYNTAX = re.compile(r"TOML parse error at line \d+, column \d+\n(?:.*\|.*\n)+ *")
+
+
+#: A message of the command line in the words of who called from Python.
+Tell = Callable[[str], str]
 
 
 def set_words(overrides: Mapping[str, Any] | None) -> list[str]:
     """Values in place of a scene's as words of the command line."""
     words = []
-    for key, value in (overrides or {}).items():
+    for key, value in checked_overrides(overrides).items():
         words += ["--set", f"{key}={value if isinstance(value, str) else toml_value(value)}"]
     return words
 
@@ -40,27 +50,41 @@ def out_word(folder: str | os.PathLike[str]) -> str:
 
 
 @contextmanager
-def scene_on_disk(scene: Any) -> Iterator[tuple[str, list[str]]]:
-    """The path of the file of a scene, and words for the values in place of the file's.
+def scene_on_disk(scene: Any) -> Iterator[tuple[str, list[str], Tell]]:
+    """The path of the file of a scene, words for the values in place of the file's, and who tells messages.
 
     A scene of arrays or of tables is written into a folder that goes with the call.
     """
     if isinstance(scene, (str, os.PathLike)):
-        yield operand(scene), []
+        yield operand(scene), [], str
         return
     scene = Scene(scene) if isinstance(scene, Mapping) else scene
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: a file, a Scene, a Contact or tables are expected, not {type(scene).__name__}")
     words = set_words(dict(scene._overrides))
     if scene.path_of_file is not None and not scene.has_arrays:
-        yield operand(scene.path_of_file), words
+        yield operand(scene.path_of_file), words, str
         return
     import tempfile
 
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "scene.toml"
         path.write_text(toml_text(_with_files(scene, folder)), encoding="utf-8")
-        yield os.fspath(path), words
+        yield os.fspath(path), words, told_without(path, scene._told_of)
+
+
+def told_without(path: Path, tell: Callable[[str, str], str]) -> Tell:
+    """Tells messages about a file that its author has never seen, by key and words, without its path and lines."""
+    place = re.compile(rf"^{re.escape(os.fspath(path))}(?::\d+)?(, from --set)?: (?:([\w.]+): )?(.*)$")
+
+    def told(line: str) -> str:
+        found = place.match(line)
+        if found is None:
+            return tell("", line)
+        from_set, key, words = found.groups()
+        return f'overrides["{key}"]: {words}' if from_set else tell(key or "", words)
+
+    return lambda text: "\n".join(told(line) for line in SYNTAX.sub("", text).splitlines())
 
 
 def _with_files(scene: Scene, folder: str) -> dict[str, Any]:

@@ -1,4 +1,7 @@
-"""Exceptions and warnings of tabor. The words are those of the command line: what is wrong, where, and how to mend it."""
+"""Exceptions and warnings of tabor: what is wrong, where, and how to mend it.
+
+Where is an argument, of a contact and of loads; a key of a scene that was given as tables; a line of a file.
+"""
 
 
 class TaborError(Exception):

@@ -15,12 +15,16 @@ import numpy.typing as npt
 
 from . import _tabor
 from .errors import FitError, TaborWarning
-from .quantities import Quantity, si, words
+from .quantities import Quantity, refuse_unit, si, words
 from .tables import structured
 
 
 #: Fitted numbers with their units.
 UNITS = {"work_of_adhesion": "J/m^2", "contact_modulus": "Pa", "range": "m", "peak_tension": "Pa"}
+
+
+#: Columns of a curve whose numbers are in SI units.
+DIMENSIONS = {"approach": "length", "force": "force", "time": "time"}
 
 
 class Estimate(NamedTuple):
@@ -118,7 +122,7 @@ def fit(
 
     Parameters
     ----------
-    curve : path, mapping, DataFrame or structured array, or two or three arrays
+    curve : path, mapping, DataFrame or structured array, or a tuple or list of two or three arrays
         A file (CSV, or one of an instrument); columns ``approach`` (m, positive closer), ``force`` (N, positive in
         compression) and perhaps ``time`` (s), or what `columns` chooses; or (approach, force) or (approach, force, time).
     radius : number or text, optional
@@ -162,23 +166,27 @@ def fit(
     [(tip, size)] = given
     if tip != "sphere" and not 0 < si(size, "angle", tip, FitError) < np.pi / 2:
         raise FitError(f'{tip}: {size!r} is not between 0 and pi/2 rad; a text has its unit, such as "70 deg"')
-    if advise and tip != "sphere":
-        raise FitError("advise: only curves of spheres were learned from")
+    if tip != "sphere":
+        for name, given_too in (("advise", advise), ("range", range is not None), ("radius_error", radius_error != 0.0)):
+            if given_too:
+                raise FitError(f"{name}: of spheres only")
+    if isinstance(columns, str) or not all(isinstance(each, str) for each in columns):
+        raise FitError(f'columns: a list of texts such as ["position=Z [um]"] is expected, not {columns!r}')
     path, text = _curve(curve)
     how = {
         "tip": tip,
-        "tip_size": si(size, "length" if tip == "sphere" else "angle", "radius" if tip == "sphere" else tip, FitError),
-        "contact_at_zero": bool(contact_at_zero),
-        "baseline": bool(baseline),
-        "baseline_slope": bool(baseline_slope),
+        "tip_size": _positive(size, "length" if tip == "sphere" else "angle", "radius" if tip == "sphere" else tip),
+        "contact_at_zero": _truth(contact_at_zero, "contact_at_zero"),
+        "baseline": _truth(baseline, "baseline"),
+        "baseline_slope": _truth(baseline_slope, "baseline_slope"),
         "columns": list(columns),
-        "sensitivity": None if sensitivity is None else si(sensitivity, "length per voltage", "sensitivity", FitError),
-        "spring": None if spring is None else si(spring, "force per length", "spring", FitError),
+        "sensitivity": None if sensitivity is None else _positive(sensitivity, "length per voltage", "sensitivity"),
+        "spring": None if spring is None else _positive(spring, "force per length", "spring"),
         "spring_error": _share(spring_error, "spring_error"),
         "radius_error": _share(radius_error, "radius_error"),
-        "relaxation": bool(relaxation),
-        "advise": bool(advise),
-        "range": None if range is None else si(range, "length", "range", FitError),
+        "relaxation": _truth(relaxation, "relaxation"),
+        "advise": _truth(advise, "advise"),
+        "range": None if range is None else _positive(range, "length", "range"),
     }
     report, table, headline, said = _tabor.fit(path, text, how)
     for warning in said:
@@ -187,29 +195,44 @@ def fit(
     return Fit(found, structured(list(csv.reader(io.StringIO(table)))), headline)
 
 
+def _positive(value: Quantity, dimension: str, argument: str) -> float:
+    number = si(value, dimension, argument, FitError)
+    if number <= 0:
+        raise FitError(f"{argument}: {value!r} is not above zero")
+    return number
+
+
+def _truth(value: Any, argument: str) -> bool:
+    # A text such as "no" would count as true.
+    if not isinstance(value, (bool, np.bool_)):
+        raise FitError(f"{argument}: True or False is expected, not {value!r}")
+    return bool(value)
+
+
 def _share(value: Quantity, argument: str) -> float:
     """A share from 0 to 1, as a number or in per cent."""
-    number, unit = value, 1.0
-    if isinstance(value, str) and value.rstrip().endswith("%"):
-        number, unit = value.rstrip()[:-1], 0.01
-    share = si(number, "number", argument, FitError) * unit
-    if not 0 <= share <= 1:
-        raise FitError(f'{argument}: {value!r} must be a share, such as 0.1 or "10%"')
-    return share
+    return _tabor.share(value if isinstance(value, str) else repr(si(value, "number", argument, FitError)), argument)
 
 
-def _unmasked(values: Any) -> npt.NDArray[Any]:
+def _column(name: str, values: Any) -> npt.NDArray[Any]:
     """The values of a column; what is masked is missing, as NaN."""
+    refuse_unit(values, DIMENSIONS.get(name, "number"), name, FitError)
     if isinstance(values, np.ma.MaskedArray) and np.any(values.mask):
         return np.where(values.mask, np.nan, np.asarray(values, dtype=np.float64))
-    return np.asarray(values)
+    array = np.asarray(values)
+    if name in DIMENSIONS:
+        if array.dtype.kind not in "fiuO":
+            raise FitError(f"{name}: real numbers are expected, not {array.dtype}")
+        if array.dtype.kind == "f" and np.isinf(array).any():
+            raise FitError(f"{name}: {np.count_nonzero(np.isinf(array))} of {array.size} values are infinite; what is missing is NaN")
+    return array
 
 
 def _curve(curve: Any) -> tuple[str, str | None]:
     """The path of a curve, or the text of one in memory."""
     if isinstance(curve, (str, os.PathLike)):
         return os.fspath(curve), None
-    if isinstance(curve, tuple):
+    if isinstance(curve, (tuple, list)):
         if len(curve) not in (2, 3):
             raise FitError(f"curve: (approach, force) or (approach, force, time) is expected, not {len(curve)} arrays")
         table: Mapping[str, Any] = dict(zip(("approach", "force", "time"), curve))
@@ -220,8 +243,8 @@ def _curve(curve: Any) -> tuple[str, str | None]:
     elif hasattr(curve, "columns") and hasattr(curve, "__getitem__"):
         table = {str(name): curve[name] for name in curve.columns}
     else:
-        raise FitError(f"curve: a file, columns or arrays are expected, not {type(curve).__name__}")
-    arrays = {name: _unmasked(values) for name, values in table.items()}
+        raise FitError(f"curve: a file, columns or (approach, force) are expected, not {type(curve).__name__}")
+    arrays = {name: _column(name, values) for name, values in table.items()}
     if len({array.shape for array in arrays.values()}) > 1 or any(array.ndim != 1 for array in arrays.values()):
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise FitError(f"curve: columns of one length are expected, not {shapes}")

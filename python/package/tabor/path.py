@@ -8,12 +8,13 @@ import warnings
 from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
-from .errors import NotConvergedWarning, TaborWarning
+from .errors import NotConvergedWarning, TaborError, TaborWarning
 from .progress import Report, reporter
 from .step import Step
 
 if TYPE_CHECKING:
     from .scene import Scene
+    from .wording import Wording
 
 #: A load: the word of its control, its value, SI, and the seconds that it takes.
 Load = tuple[str, float, "float | None"]
@@ -22,13 +23,16 @@ Load = tuple[str, float, "float | None"]
 class Path:
     """Solves a load each time it is asked for the next `Step`: the iterator that `Contact.path` gives.
 
-    It ends after the last load, or after one that did not converge. It does not pickle, and once begun it does not go on
+    It ends after the last load, or after one that did not converge or was refused. It does not pickle, and once begun it does not go on
     in a fork; its contact and its steps do both.
     """
 
-    def __init__(self, scene: Scene, loads: Iterator[Load], until_apart: bool, progress: Any, total: int | None = None) -> None:
+    def __init__(
+        self, scene: Scene, loads: Iterator[Load], wording: Wording | None, until_apart: bool, progress: Any, total: int | None = None
+    ) -> None:
         self._of = type(scene).__name__
-        self._solver = scene._loaded.path(scene.threads, until_apart)
+        self._solver = scene._loaded.path(scene.threads, until_apart, wording)
+        self._wording = wording
         self._loads = loads
         self._pulls = until_apart
         # One bar for all loads, from the first on.
@@ -68,14 +72,16 @@ class Path:
             step = Step(found, self._periodic)
             self._solved += 1
             self._ended = not step.converged
-        except BaseException:
+        except BaseException as error:
+            # As of a generator: what is refused ends it.
+            self._ended = self._ended or isinstance(error, TaborError)
             self._open.close()
             raise
         finally:
             self._busy.release()
         if self._ended:
             self._open.close()
-        for words in said:
+        for words in said if self._wording is None else [self._wording("", words) for words in said]:
             warnings.warn(words, TaborWarning, stacklevel=level)
         if not step.converged:
             words = f"a load did not converge: residual {step.residual:.1e} after {step.iterations} iterations"

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import os
+import re
 import sys
-from collections.abc import Sequence
+import warnings
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from .errors import OutputError, SceneError, TaborError
+from .errors import OutputError, SceneError, TaborError, TaborWarning
 
 #: Exit codes of the command line: 3 is a case that did not converge, which its table shows.
 CLASSES: dict[int, type[TaborError]] = {1: OutputError, 2: SceneError}
@@ -18,8 +20,15 @@ PROGRAM = "import sys; sys.path[0] = sys.argv.pop(1); from tabor.__main__ import
 PACKAGE = os.fspath(Path(__file__).parents[1])
 
 
-def call(words: Sequence[str], quiet: bool) -> str:
-    """Runs the command line in a process of its own and returns what it printed."""
+#: A message of the program, whose further lines are indented.
+MESSAGE = re.compile(r"^(warning|error): (.*(?:\n  .*)*)", re.MULTILINE)
+
+
+def call(words: Sequence[str], quiet: bool, tell: Callable[[str], str] = str) -> str:
+    """Runs the command line in a process of its own and returns what it printed.
+
+    Where it is quiet its warnings are those of who called the caller; messages are told by `tell`.
+    """
     # Where it is first called for: these take longer to import than all of this package.
     import signal
     import subprocess
@@ -30,17 +39,22 @@ def call(words: Sequence[str], quiet: bool) -> str:
         [sys.executable, "-c", PROGRAM, PACKAGE, *words], stdout=subprocess.PIPE, stderr=output, text=True, start_new_session=True
     )
     try:
-        printed, errors = process.communicate()
+        printed, said = process.communicate()
     except KeyboardInterrupt:
         process.send_signal(signal.SIGINT)
         process.communicate()
         raise
+    # Nobody called by options.
+    messages = [(kind, tell(text.replace("\n  ", "\n").replace(" with --out", ""))) for kind, text in MESSAGE.findall(said or "")]
+    for kind, text in messages:
+        if kind == "warning":
+            warnings.warn(text, TaborWarning, stacklevel=3)
     if process.returncode not in (0, NOT_CONVERGED):
-        message = (errors or "").strip() or f"tabor {words[0]} ended with {process.returncode}"
+        message = "\n".join(text for kind, text in messages if kind == "error") or (said or "").strip() or f"tabor {words[0]} ended with {process.returncode}"
         raise CLASSES.get(process.returncode, TaborError)(message)
     return printed
 
 
 def devices() -> str:
     """What this machine can compute on, and which of it ``backend="auto"`` takes."""
-    return call(["devices"], quiet=True).rstrip()
+    return call(["devices"], True).rstrip()

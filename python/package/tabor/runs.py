@@ -96,11 +96,17 @@ class Run:
         step : int, optional
             The step; the last one that has the field unless told.
         """
-        steps = [number for number, field in self.fields if field == name and step in (None, number)]
-        if not steps:
+        if name not in FIELDS:
+            raise OutputError(f"{self.folder}: {name} is no field; a run has {', '.join(FIELDS)}")
+        having = [number for number, field in self.fields if field == name]
+        if not having:
             held = ", ".join(sorted({field for _, field in self.fields})) or "no field"
             raise OutputError(f'{self.folder}: {name} is not there; it holds {held}; [output] fields = ["{name}"] writes it')
-        mapped: npt.NDArray[Any] = np.load(self.folder / "fields" / f"step_{steps[-1]:04}_{name}.npy", mmap_mode="r")
+        if step is not None and step not in having:
+            some = ", ".join(map(str, having[:10])) + (", ..." if len(having) > 10 else "")
+            raise OutputError(f"{self.folder}: step {step} has no {name}; steps that have it are {some}")
+        number = having[-1] if step is None else int(step)
+        mapped: npt.NDArray[Any] = np.load(self.folder / "fields" / f"step_{number:04}_{name}.npy", mmap_mode="r")
         return mapped
 
     def to_dataset(self) -> Any:

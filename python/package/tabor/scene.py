@@ -5,7 +5,6 @@ from __future__ import annotations
 import functools
 import itertools
 import json
-import math
 import os
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -18,20 +17,16 @@ import numpy.typing as npt
 from . import _tabor
 from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
-from .quantities import Quantity, refuse_masked, si
+from .quantities import Quantity, refuse_unit, si, words
 from .step import Step
+from .values import Array, checked_overrides, field, plain, thread_count, toml_text
+from .wording import Wording
 
 if TYPE_CHECKING:
     from .runs import Run
 
 Arguments = ParamSpec("Arguments")
 Result = TypeVar("Result")
-
-#: As many as the command line takes.
-MOST_THREADS = 1024
-
-#: The greatest whole number that TOML holds.
-MOST_WHOLE = 2**63 - 1
 
 #: What a path may prescribe: the argument, the word of a scene, the dimension.
 CONTROLS = {
@@ -41,69 +36,13 @@ CONTROLS = {
     "mean_gap": ("mean-gap", "length"),
 }
 
-Array = npt.NDArray[np.float64]
 #: Loads of a path, or seconds: one, or many.
 Loads: TypeAlias = Union[Quantity, Iterable[Quantity], npt.NDArray[Any]]
 
 
-def field(array: Any, argument: str) -> Array:
-    """A two-dimensional array of float64 in C order, every number finite; the array itself where it is one."""
-    refuse_masked(array, argument)
-    try:
-        values = np.asarray(array)
-    except ValueError as error:
-        raise SceneError(f"{argument}: an array of shape (ny, nx) is expected ({error})") from None
-    if values.dtype.kind not in "fiubO":
-        raise SceneError(f"{argument}: real numbers are expected, not {values.dtype}")
-    if values.ndim == 0 and values.dtype.kind == "O":
-        raise SceneError(f"{argument}: an array of shape (ny, nx) is expected, not {type(array).__name__}")
-    try:
-        values = np.require(values, np.float64, ["C_CONTIGUOUS", "ALIGNED"])
-    except (TypeError, ValueError, OverflowError) as error:
-        raise SceneError(f"{argument}: an array of numbers is expected ({error})") from None
-    if values.ndim != 2 or values.size == 0:
-        raise SceneError(f"{argument}: an array of shape (ny, nx) is expected, not {values.shape}")
-    if not np.isfinite(values).all():
-        rows, columns = np.nonzero(~np.isfinite(values))
-        raise SceneError(f"{argument}: {rows.size} of {values.size} values are not finite, the first at [{rows[0]}, {columns[0]}]; fill them first")
-    return values
-
-
-def plain(value: Any, place: str = "") -> Any:
-    """A value at a place of a scene as TOML can hold it; tables lose what is None."""
-    if isinstance(value, Mapping):
-        each = {str(key): below for key, below in value.items() if below is not None}
-        return {key: plain(below, f"{place}.{key}" if place else key) for key, below in each.items()}
-    if isinstance(value, np.ndarray):
-        value = value.tolist()
-    if isinstance(value, (list, tuple)):
-        return [plain(each, f"{place}.{index}") for index, each in enumerate(value)]
-    if isinstance(value, np.generic):
-        value = value.item()
-    if isinstance(value, os.PathLike):
-        value = os.fspath(value)
-    if isinstance(value, float) and not math.isfinite(value):
-        raise SceneError(f"{place}: {value} is no finite number")
-    if isinstance(value, int) and not isinstance(value, bool) and not -MOST_WHOLE <= value <= MOST_WHOLE:
-        raise SceneError(f"{place}: {value} is out of range; a whole number of a scene is at most 2^63 - 1")
-    if isinstance(value, str) and not value.isascii():
-        try:
-            value.encode()
-        except UnicodeEncodeError as error:
-            raise SceneError(f"{place}: this is no text ({error})") from None
-    if not isinstance(value, (bool, int, float, str)):
-        raise SceneError(f"{place}: a number, a text, a list or a table is expected, not {type(value).__name__}")
-    return value
-
-
-def toml_text(tables: Mapping[str, Any]) -> str:
-    """Tables as the text of a TOML file."""
-    if not isinstance(tables, Mapping):
-        raise SceneError(f"a scene is a mapping of tables, not {type(tables).__name__}; Scene.read reads a file")
-    try:
-        return _tabor.toml_from_json(json.dumps(plain(tables)))
-    except RecursionError as error:
-        raise SceneError(f"a scene holds numbers, texts, lists and tables: {error}") from None
+def control_at(boundary: Any) -> str:
+    """What a load prescribes that nobody asks for: paths bring their own."""
+    return "force" if isinstance(boundary, str) and boundary == "free" else "pressure"
 
 
 def by_name(call: Callable[Arguments, Result]) -> Callable[Arguments, Result]:
@@ -150,7 +89,12 @@ class Scene:
         adhesion_map: Any = None,
         threads: int | None = None,
     ) -> None:
-        self._begin((toml_text(tables), "scene", _here(), []), heights, adhesion_map, threads)
+        self._of_tables(tables, Wording({}, in_python=False), heights, adhesion_map, threads)
+
+    def _of_tables(
+        self, tables: Mapping[str, Any], wording: Wording, heights: Any = None, adhesion_map: Any = None, threads: int | None = None
+    ) -> None:
+        self._begin((toml_text(tables, wording), "scene", _here(), []), heights, adhesion_map, threads, None, wording)
 
     def _begin(
         self,
@@ -158,16 +102,17 @@ class Scene:
         heights: Any,
         adhesion_map: Any,
         threads: int | None,
-        path_of_file: Path | None = None,
+        path_of_file: Path | None,
+        wording: Wording | None,
     ) -> None:
-        if threads is not None and (isinstance(threads, bool) or not isinstance(threads, (int, np.integer)) or not 1 <= threads <= MOST_THREADS):
-            raise SceneError(f"threads: a count from 1 to {MOST_THREADS} is expected, not {threads!r}")
-        self._heights = None if heights is None else field(heights, "heights")
-        self._adhesion_map = None if adhesion_map is None else field(adhesion_map, "adhesion_map")
+        self._heights = None if heights is None else field(heights, "heights", "length")
+        self._adhesion_map = None if adhesion_map is None else field(adhesion_map, "adhesion_map", "number")
         self._source = source
         self.path_of_file = path_of_file
-        self.threads = None if threads is None else int(threads)
-        self._loaded = _tabor.LoadedScene(*source, self._heights, self._adhesion_map)
+        self.threads = None if threads is None else thread_count(threads, "threads")
+        # Nobody tells messages of a file: they name its lines.
+        self._wording = wording
+        self._loaded = _tabor.LoadedScene(*source, self._heights, self._adhesion_map, wording)
         if self._adhesion_map is not None and self.resolved.get("adhesion") is None:
             raise SceneError("adhesion_map: it changes the tension of a law, and there is none; give a law")
 
@@ -193,11 +138,11 @@ class Scene:
             raise SceneError(f"{path}: cannot be read: {error}") from error
         scene = cls.__new__(cls)
         chosen = [
-            (key, value if isinstance(value, str) else json.dumps(plain(value, key))) for key, value in (overrides or {}).items()
+            (key, value if isinstance(value, str) else json.dumps(plain(value, key))) for key, value in checked_overrides(overrides).items()
         ]
         # Files are read when they are asked for, perhaps from another working directory.
         there = Path(_here()) / path
-        scene._begin((text, str(path), str(there.parent), chosen), None, None, threads, there)
+        scene._begin((text, str(path), str(there.parent), chosen), None, None, threads, there, None)
         return scene
 
     @property
@@ -247,7 +192,7 @@ class Scene:
             raise OutputError(f"{path}: cannot be written: {error}") from error
 
     def check(self, *, verbose: bool = False) -> str:
-        """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost.
+        """What ``tabor check`` says: the physics, how well the grid resolves it, memory and cost. It warns by `TaborWarning`.
 
         Parameters
         ----------
@@ -257,8 +202,8 @@ class Scene:
         from .disk import scene_on_disk
         from .program import call
 
-        with scene_on_disk(self) as (path, words):
-            return call(["check", path, *words, *(["--verbose"] if verbose else [])], quiet=True)
+        with scene_on_disk(self) as (path, words, tell):
+            return call(["check", path, *words, *(["--verbose"] if verbose else [])], True, tell)
 
     @classmethod
     def new(cls, kind: str, folder: str | os.PathLike[str]) -> Scene:
@@ -273,13 +218,13 @@ class Scene:
         """
         from .program import call
 
-        call(["new", str(kind), os.fspath(folder)], quiet=True)
+        call(["new", str(kind), os.fspath(folder)], True)
         return cls.read(Path(folder) / "scene.toml")
 
     def surface(self) -> tuple[Array, tuple[float, float]]:
         """The heights of all parts, m, of shape (ny, nx), and the cell's (lx, ly), m."""
         heights, size, said = self._loaded.heights(self.threads)
-        _warn(said)
+        _warn(self._told_of("", words) for words in said)
         return heights, size
 
     def heights(self) -> Array:
@@ -319,7 +264,19 @@ class Scene:
         loads = self._loads(control, seconds)
         given = self._loaded.loads() if control is None else control[1]
         total = 1 if _is_one(given) else len(given) if hasattr(given, "__len__") and not pulls else None
-        return LoadPath(self, loads, pulls, progress, total)
+        return LoadPath(self, loads, self._wording_of(control), pulls, progress, total)
+
+    def _wording_of(self, control: tuple[str, Any] | None) -> Wording | None:
+        """Who tells messages of a path: loads that were given have the name of their control."""
+        if control is None:
+            return self._wording
+        return (self._wording or Wording({}, in_python=False)).of_loads(control[0])
+
+    def _told_of(self, key: str, words: str) -> str:
+        """A message about a key, perhaps empty, in the words of the scene's author."""
+        if self._wording is not None:
+            return self._wording(key, words)
+        return f"{key}: {words}" if key else words
 
     def _loads(self, control: tuple[str, Any] | None, seconds: Any) -> Iterator[Load]:
         if control is None:
@@ -328,6 +285,7 @@ class Scene:
             return iter(self._loaded.loads())
         name, values = control
         word, dimension = CONTROLS[name]
+        refuse_unit(values, dimension, name)
         values = [values] if _is_one(values) else values
         if seconds is None:
             return ((word, si(value, dimension, name), None) for value in values)
@@ -372,7 +330,7 @@ class Scene:
         name, value = control
         if not _is_one(value):
             raise TypeError(f"{name}: solve takes one load, not {type(value).__name__}; path takes many")
-        return LoadPath(self, self._loads(control, None), False, progress, 1)._next(4)
+        return LoadPath(self, self._loads(control, None), self._wording_of(control), False, progress, 1)._next(4)
 
     def run(
         self,
@@ -406,41 +364,49 @@ class Scene:
         total = None if self.resolved["loading"].get("until") else len(self._loaded.loads())
         with reporter(progress, total) as report:
             trouble, said = _tabor.run(self._loaded, os.fspath(folder), resume, overwrite, images, self.threads, report)
-        _warn([words for is_warning, words in said if is_warning])
+        _warn(self._told_of("", words) for is_warning, words in said if is_warning)
         if trouble is not None:
             warnings.warn(trouble, NotConvergedWarning, stacklevel=2)
         return Run(folder)
 
     def __reduce__(self) -> Any:
-        return _restore, (type(self), self._source, self._heights, self._adhesion_map, self.threads, self.path_of_file)
+        return _restore, (type(self), self._source, self._heights, self._adhesion_map, self.threads, self.path_of_file, self._wording)
 
     def _described(self) -> dict[str, str]:
         """What the scene is, in words."""
         resolved = self.resolved
         grid, solid, adhesion = resolved["grid"], resolved["solid"], resolved.get("adhesion")
         points = grid.get("points")
-        words = {
+        described = {
             "grid": "of its file" if points is None else f"{points[0]} x {points[1]} points, {grid['boundary']}",
-            "contact modulus": f"{solid['contact_modulus']:.4g} Pa" if "contact_modulus" in solid else "of a layer",
+            "contact modulus": words(solid["contact_modulus"], "Pa") if "contact_modulus" in solid else "of a layer",
             "adhesion": "none" if adhesion is None else str(adhesion["law"]),
         }
         if grid.get("size") is not None:
-            words["size"] = " x ".join(f"{side:.4g} m" for side in grid["size"])
+            described["size"] = " x ".join(words(side, "m") for side in grid["size"])
         if adhesion is not None and adhesion.get("work_of_adhesion") is not None:
-            words["work of adhesion"] = f"{adhesion['work_of_adhesion']:.4g} J/m^2"
-        return words
+            described["work of adhesion"] = words(adhesion["work_of_adhesion"], "J/m^2")
+        return described
 
     def __repr__(self) -> str:
-        return f"<{type(self).__name__}: {', '.join(f'{name} {words}' for name, words in self._described().items())}>"
+        return f"<{type(self).__name__}: {', '.join(f'{name} {each}' for name, each in self._described().items())}>"
 
     def _repr_html_(self) -> str:
-        rows = "".join(f"<tr><th style='text-align:left'>{name}</th><td>{words}</td></tr>" for name, words in self._described().items())
+        rows = "".join(f"<tr><th style='text-align:left'>{name}</th><td>{each}</td></tr>" for name, each in self._described().items())
         return f"<table><caption>{type(self).__name__}</caption>{rows}</table>"
 
 
-def _restore(cls: type[Scene], source: Any, heights: Any, adhesion_map: Any, threads: int | None, path: Path | None) -> Scene:
+def _restore(
+    cls: type[Scene],
+    source: Any,
+    heights: Any,
+    adhesion_map: Any,
+    threads: int | None,
+    path: Path | None,
+    wording: Wording | None,
+) -> Scene:
     scene = cls.__new__(cls)
-    scene._begin(source, heights, adhesion_map, threads, path)
+    scene._begin(source, heights, adhesion_map, threads, path, wording)
     return scene
 
 
@@ -466,5 +432,5 @@ def _control(**loads: Any) -> tuple[str, Any] | None:
 
 
 def _warn(said: Iterable[str]) -> None:
-    for words in said:
-        warnings.warn(words, TaborWarning, stacklevel=4)
+    for each in said:
+        warnings.warn(each, TaborWarning, stacklevel=4)

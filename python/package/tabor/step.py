@@ -66,7 +66,7 @@ class Step:
         return {**plain, **self._found["columns"]}
 
     def to_dataset(self) -> Any:
-        """The fields with coordinates and units, as an `xarray.Dataset`."""
+        """The fields with coordinates and units, and the numbers as attributes, as an `xarray.Dataset`; ``converged`` is 1 or 0."""
         xarray = package("xarray", "a dataset")
 
         ny, nx = self._found["gap"].shape
@@ -77,7 +77,8 @@ class Step:
             "x": ("x", np.arange(nx) * lx / nx, metres),
         }
         fields = {name: (("y", "x"), self._found[name], {"units": unit}) for name, unit in FIELDS.items()}
-        numbers = {key: value for key, value in self._found.items() if isinstance(value, (int, float, str, bool))}
+        # A file of netCDF has no truth values.
+        numbers = {key: int(value) if isinstance(value, bool) else value for key, value in self.numbers.items() if value is not None}
         return xarray.Dataset(fields, coordinates, numbers)
 
     def to_topography(self, field: str = "gap") -> Any:

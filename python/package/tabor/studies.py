@@ -11,12 +11,13 @@ import numpy as np
 import numpy.typing as npt
 
 from . import tables
-from .disk import operand, out_word, scene_on_disk, set_words
+from .disk import Tell, operand, out_word, scene_on_disk, set_words, told_without
 from .errors import OutputError, SceneError
 from .optional import package
 from .program import call
 from .quantities import Quantity, si
-from .scene import Scene, toml_text
+from .scene import Scene
+from .values import thread_count, toml_text
 
 
 class Study:
@@ -72,10 +73,10 @@ def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[st
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
-        Whether what the command line says is held back.
+        Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
-    with scene_on_disk(scene) as (path, words):
-        call(["compare", path, out_word(folder), *words, *set_words(overrides)], quiet)
+    with scene_on_disk(scene) as (path, words, tell):
+        call(["compare", path, out_word(folder), *words, *set_words(overrides)], quiet, tell)
     return Study(folder)
 
 
@@ -100,11 +101,13 @@ def accuracy(
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
-        Whether what the command line says is held back.
+        Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
-    seconds = f"{si(budget, 'time', 'budget')!r} s"
-    with scene_on_disk(scene) as (path, words):
-        call(["accuracy", path, out_word(folder), "--budget", seconds, *words, *set_words(overrides)], quiet)
+    seconds = si(budget, "time", "budget")
+    if seconds <= 0:
+        raise SceneError("budget: must be more than zero")
+    with scene_on_disk(scene) as (path, words, tell):
+        call(["accuracy", path, out_word(folder), f"--budget={seconds!r} s", *words, *set_words(overrides)], quiet, tell)
     return Study(folder)
 
 
@@ -138,31 +141,48 @@ def sweep(
     overrides : mapping, optional
         Values in place of the scene's, by dotted keys.
     quiet : bool
-        Whether what the command line says is held back.
+        Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
     import contextlib
     import tempfile
 
+    options = [f"--{name}={thread_count(count, name)}" for name, count in (("jobs", jobs), ("threads", threads)) if count is not None]
+    if share is not None:
+        options.append(f"--only={_share(share)}")
+    if merge is not None:
+        options += ["--merge", *(operand(each) for each in merge)]
     with contextlib.ExitStack() as until_done:
         words: list[str] = []
+        tell: Tell = str
         if isinstance(study, Mapping):
             tables = dict(study)
             if "scene" in tables:
                 if isinstance(tables["scene"], Scene) and tables["scene"].has_arrays:
                     words_of_files = "save the array by numpy.save and give the contact its path, by which the study is known again"
                     raise SceneError(f"study: its scene holds an array; {words_of_files}")
-                scene, words = until_done.enter_context(scene_on_disk(tables["scene"]))
+                scene, words, tell_of_scene = until_done.enter_context(scene_on_disk(tables["scene"]))
                 tables["scene"] = os.path.abspath(scene)
             path = Path(until_done.enter_context(tempfile.TemporaryDirectory())) / "study.toml"
             path.write_text(toml_text(tables), encoding="utf-8")
+            tell_of_study = told_without(path, _of_study)
+
+            def tell(text: str) -> str:
+                return tell_of_scene(tell_of_study(text))
+
         else:
             path = Path(study)
-        for name, count in (("--jobs", jobs), ("--threads", threads)):
-            if count is not None:
-                words += [name, str(count)]
-        if share is not None:
-            words += ["--only", "/".join(str(number) for number in share)]
-        if merge is not None:
-            words += ["--merge", *(operand(each) for each in merge)]
-        call(["sweep", operand(path), out_word(folder), *words, *set_words(overrides)], quiet)
+        call(["sweep", operand(path), out_word(folder), *options, *words, *set_words(overrides)], quiet, tell)
     return Study(folder)
+
+
+def _share(share: Any) -> str:
+    """A share (i, n) in the words of the command line."""
+    numbers = list(share) if isinstance(share, (tuple, list)) else []
+    if len(numbers) != 2 or not all(isinstance(number, (int, np.integer)) for number in numbers) or not 1 <= numbers[0] <= numbers[1]:
+        raise SceneError(f"share: (i, n) is expected, as in (2, 8) for the second of eight, not {share!r}")
+    return f"{numbers[0]}/{numbers[1]}"
+
+
+def _of_study(key: str, words: str) -> str:
+    """A message about the tables of a study."""
+    return f"study: {key}: {words}" if key else f"study: {words}"

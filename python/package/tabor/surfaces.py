@@ -13,7 +13,9 @@ import numpy.typing as npt
 from . import _tabor
 from .errors import SurfaceError, TaborError
 from .quantities import Quantity, si
-from .scene import Scene, field
+from .scene import Scene, control_at
+from .values import field
+from .wording import CONTACT, Wording
 
 #: One side of a square, or two sides (x, y).
 Size = Union[Quantity, Sequence[Quantity]]
@@ -195,26 +197,37 @@ def is_part(parts: Any) -> bool:
     return isinstance(parts, (_Part, HeightFile, Mapping))
 
 
-def tables_of(parts: Any, side: float | None) -> list[dict[str, Any]]:
-    """The tables ``[[surface]]`` of a part or a list of parts."""
+def tables_of(parts: Any, side: float | None, argument: str) -> list[dict[str, Any]]:
+    """The tables ``[[surface]]`` of a part or a list of parts that was given as `argument`."""
     each = parts if isinstance(parts, (list, tuple)) else [parts]
     for part in each:
         if not isinstance(part, (_Part, HeightFile, Mapping)):
-            raise SurfaceError(f"parts: parts of a surface are expected, such as Sphere(\"1 um\"), not {part!r}")
+            raise SurfaceError(f"{argument}: parts of a surface are expected, such as Sphere(\"1 um\"), not {part!r}")
+        if isinstance(part, Mapping) and "kind" not in part:
+            words = 'a mapping is a part of a surface and has a kind, such as {"kind": "sphere", "radius": "1 um"}'
+            raise SurfaceError(f"{argument}: {words}, not {', '.join(map(str, part)) or 'nothing'}")
     return [dict(part) if isinstance(part, Mapping) else part.table(side) for part in each]
 
 
-def _scene(parts: Any, grid: dict[str, Any], side: float | None, threads: int | None) -> Scene:
+def names_of(parts: Any, argument: str) -> dict[str, str]:
+    """What messages call the tables of a part or a list of parts that was given as `argument`."""
+    names = {"surface": argument}
+    if isinstance(parts, (list, tuple)):
+        return names | {f"surface.{index}": f"{argument}[{index}]{'' if isinstance(part, Mapping) else '.'}" for index, part in enumerate(parts)}
+    return names | {"surface.0": argument if isinstance(parts, Mapping) else f"{type(parts).__name__}."}
+
+
+def _scene(parts: Any, grid: dict[str, Any], side: float | None, threads: int | None, names: Mapping[str, str]) -> Scene:
+    scene = Scene.__new__(Scene)
     # What is no surface is not read: the modulus and the load stand for any.
-    return Scene(
-        {
-            "grid": grid,
-            "solid": {"contact_modulus": 1.0},
-            "surface": tables_of(parts, side),
-            "loading": {"control": "force" if grid.get("boundary") == "free" else "pressure", "path": [0.0]},
-        },
-        threads=threads,
-    )
+    tables = {
+        "grid": grid,
+        "solid": {"contact_modulus": 1.0},
+        "surface": tables_of(parts, side, "parts"),
+        "loading": {"control": control_at(grid.get("boundary")), "path": [0.0]},
+    }
+    scene._of_tables(tables, Wording({**CONTACT, **names}), threads=threads)
+    return scene
 
 
 def heights(
@@ -245,8 +258,13 @@ def heights(
     >>> bumpy.shape
     (32, 64)
     """
+    return _heights(parts, points, size, boundary, threads, names_of(parts, "parts"))
+
+
+def _heights(parts: Any, points: Any, size: Size, boundary: str, threads: int | None, names: Mapping[str, str]) -> Array:
     lengths = sides(size)
-    return _scene(parts, {"points": counts(points), "size": lengths, "boundary": boundary}, min(lengths), threads).heights()
+    grid = {"points": counts(points), "size": lengths, "boundary": boundary}
+    return _scene(parts, grid, min(lengths), threads, names).heights()
 
 
 def read_heights(path: str | os.PathLike[str], size: Size | None = None, **keys: Any) -> Surface:
@@ -262,7 +280,8 @@ def read_heights(path: str | os.PathLike[str], size: Size | None = None, **keys:
         As in `HeightFile`.
     """
     grid = {} if size is None else {"size": sides(size)}
-    found, lengths = _scene(HeightFile(path, **keys), grid, None, None).surface()
+    names = {"surface.0": "path", **{f"surface.0.{key}": key for key in ("path", *keys)}}
+    found, lengths = _scene(HeightFile(path, **keys), grid, None, None, names).surface()
     return Surface(found, (lengths[0], lengths[1]))
 
 
@@ -297,7 +316,8 @@ def self_affine(
         Seed of the phases.
     """
     part = SelfAffine(hurst, rms_slope, rms_height, longest, rolloff, shortest, seed)
-    return heights(part, points, size)
+    names = {"surface.0": "self_affine", **{f"surface.0.{key}": key for key in vars(part)}}
+    return _heights(part, points, size, "periodic", None, names)
 
 
 def _map(array: Any, size: Size | None) -> tuple[Array, list[float]]:
@@ -306,7 +326,7 @@ def _map(array: Any, size: Size | None) -> tuple[Array, list[float]]:
         array = array.heights
     if size is None:
         raise SurfaceError("size: the lengths of the cell are expected")
-    return field(array, "heights"), sides(size)
+    return field(array, "heights", "length"), sides(size)
 
 
 def statistics(heights: Any, size: Size | None = None, *, boundary: str = "periodic") -> dict[str, float]:
@@ -408,8 +428,8 @@ def self_affine_like(heights: Any, size: Size | None = None, *, boundary: str = 
 
 
 def _periodic(boundary: str) -> bool:
-    if boundary not in ("periodic", "free"):
-        raise SurfaceError(f'boundary: "{boundary}" is not one of periodic, free')
+    if not isinstance(boundary, str) or boundary not in ("periodic", "free"):
+        raise SurfaceError(f"boundary: {boundary!r} is not one of periodic, free")
     return boundary == "periodic"
 
 

@@ -22,8 +22,10 @@ struct Curve {
     pull_off: State,
 }
 
-/// The last curve, which elements of a call and calls in turn share: it takes a fraction of a second, or more.
-static LAST: Mutex<Option<Curve>> = Mutex::new(None);
+/// The curves of the last Tabor parameter, one a depth, which elements of a call and calls in turn share: one takes a fraction
+/// of a second, or more. A deeper curve has other points, so that none stands for another: results are those of the arguments
+/// alone.
+static LAST: Mutex<Vec<Curve>> = Mutex::new(Vec::new());
 
 /// The curve of a Tabor parameter up to an approach in ranges.
 fn with_curve<R>(
@@ -40,22 +42,21 @@ fn with_curve<R>(
         });
     };
     let mut last = LAST.lock().unwrap_or_else(PoisonError::into_inner);
-    let kept = last.take().filter(|kept| {
-        kept.sphere.tabor_parameter().to_bits() == tabor_parameter.to_bits() && kept.depth >= least
-    });
-    let curve = match kept {
-        Some(curve) => curve,
+    last.retain(|kept| kept.sphere.tabor_parameter().to_bits() == tabor_parameter.to_bits());
+    let place = match last.iter().position(|kept| kept.depth == least) {
+        Some(place) => place,
         None => {
             let sphere = LennardJonesSphere::new(tabor_parameter, least)?;
-            Curve {
+            last.push(Curve {
                 depth: least,
                 states: sphere.curve_to(least)?,
                 pull_off: sphere.pull_off()?,
                 sphere,
-            }
+            });
+            last.len() - 1
         }
     };
-    use_it(last.insert(curve))
+    use_it(&last[place])
 }
 
 /// Force, approach, contact radius and gap on the axis of a state.

@@ -13,8 +13,8 @@ import numpy as np
 from .. import _tabor
 from ..errors import NotConvergedWarning, TheoryError
 from ..quantities import Floats, Quantities, si_array
-from ..scene import field
 from ..surfaces import Size, sides
+from ..values import field
 
 
 class Pressed(NamedTuple):
@@ -102,7 +102,7 @@ def _loaded(heights: Any, size: Size, modulus: Any, pressure: Any, work: Any, re
         shapes = ", ".join(f"{name} {array.shape}" for name, array in values.items() if array.shape)
         raise TheoryError(f"icha: these shapes do not go together: {shapes}") from None
     loads = [np.ascontiguousarray(column, dtype=np.float64).ravel() for column in (pressures / moduli, works / ranges, ranges)]
-    found, missing = _tabor.icha(field(heights, "heights"), sides(size), law, loads)
+    found, missing = _tabor.icha(field(heights, "heights", "length"), sides(size), law, loads)
     if missing:
         warnings.warn(f"icha: {missing} of {loads[0].size} loads are beyond this model and NaN", NotConvergedWarning, stacklevel=4)
     return [column.reshape(pressures.shape)[()] for column in found]
