@@ -54,8 +54,14 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
         ));
     }
     if slope > SLOPE {
+        // Of heights in nm it is a thousand million times too large.
+        let shown = if slope < 1e4 {
+            format!("{slope:.3}")
+        } else {
+            format!("{slope:.2e}")
+        };
         found.push(format!(
-            "an rms slope of {slope:.3}, {:.0} degrees, is steeper than surfaces are: were the heights meant in another unit than the size?",
+            "an rms slope of {shown}, {:.0} degrees, is steeper than surfaces are: were the heights meant in another unit than the size?",
             slope.atan().to_degrees()
         ));
     }
