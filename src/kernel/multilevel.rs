@@ -211,7 +211,7 @@ impl<T: Real> WithSimd for FreeShare<'_, T> {
                 for (x, share) in out.iter_mut().enumerate() {
                     let mut sum = T::zero();
                     for count in &counts[x * ratio..(x + 1) * ratio] {
-                        sum = sum + *count;
+                        sum += *count;
                     }
                     *share = scale * sum;
                 }
