@@ -1,6 +1,7 @@
 //! The full field, and the field without adhesion with the attraction added afterwards (DMT).
 
 use super::load_scan::{LoadScan, scan_loads};
+use super::retraction::Retraction;
 use super::table::Table;
 use super::{CompareError, Comparison, State};
 use crate::kernel::Scalars;
@@ -12,10 +13,6 @@ use crate::study::{
     Evaluation, FinishedStep, Observer, PointState, Setup, WalkError, greatest_across, walk,
 };
 
-/// Number of mean gaps in the search for pull-off on retraction, and of those around its greatest tension, between its
-/// neighbours: 16 times finer.
-const RETRACTION_GAPS: usize = 32;
-const CLOSER: usize = 32;
 /// The retraction goes on while the tension is above this share of the greatest one.
 const OVER: f64 = 0.3;
 
@@ -79,6 +76,16 @@ fn follow_path<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
     scene.loading.control = control;
     scene.loading.path = path;
     scene.adhesion = adhesion;
+    follow(comparison, make_backend, scene, watch)
+}
+
+/// Follows the path of another scene over the same surface.
+fn follow<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(
+    comparison: &Comparison,
+    make_backend: MakeBackend,
+    scene: Scene,
+    watch: F,
+) -> Result<(), CompareError> {
     let setup = Setup::new(scene, comparison.setup.surface.clone());
     match walk(&setup, make_backend, &mut Watch(watch)) {
         Ok(_) | Err(WalkError::Observer(End::Enough)) => Ok(()),
@@ -160,13 +167,19 @@ fn pull_off_by_retraction(
     let statistics = comparison.setup.statistics;
     let far = statistics.highest - statistics.mean + 3.0 * comparison.setup.law.range();
     let first = nearest.max(1e-3 * far);
-    let step = (far.max(2.0 * first) - first) / RETRACTION_GAPS as f64;
-    let mut path: Vec<f64> = (0..=RETRACTION_GAPS)
-        .map(|i| first + step * i as f64)
-        .collect();
+    let mut scene = comparison.setup.scene.clone();
+    scene.loading.control = Control::MeanGap;
+    scene.loading.path = vec![first];
+    scene.loading.until_apart = true;
+    scene.adhesion = adhesion;
+    let mut retraction: Option<Retraction> = None;
     let mut best: Option<State> = None;
-    for is_closer in [false, true] {
+    loop {
+        let mut states = Vec::new();
         let see = |state: State, _: &Evaluation, converged: bool| {
+            if let Some(gap) = state.mean_gap.filter(|_| converged) {
+                states.push((gap, -state.mean_pressure));
+            }
             let least = best.map_or(0.0, |best| best.mean_pressure);
             if converged && state.mean_pressure < least {
                 best = Some(state);
@@ -174,29 +187,21 @@ fn pull_off_by_retraction(
             // The tension may fall and rise again: once a few high summits are all that is left, nothing balances what
             // they attract. It is past its greatest where all of the attraction is below that.
             let attraction = state.adhesive_pressure.unwrap_or(0.0);
-            Ok(state.mean_pressure <= OVER * least || attraction >= -least || least == 0.0)
+            let attracts = state.mean_gap.is_some_and(|gap| gap < far);
+            Ok(match least < 0.0 {
+                true => state.mean_pressure <= OVER * least || attraction >= -least,
+                false => attracts,
+            })
         };
-        follow_path(
-            comparison,
-            make_backend,
-            Control::MeanGap,
-            path.clone(),
-            adhesion.clone(),
-            see,
-        )?;
-        let Some(gap) = best.and_then(|state| state.mean_gap) else {
-            return Ok(None);
-        };
-        if is_closer {
-            break;
+        follow(comparison, make_backend, scene.clone(), see)?;
+        let retraction = retraction.get_or_insert_with(|| Retraction::along(&states, far));
+        if !retraction.refine(&states) {
+            return Ok(best);
         }
-        // The same way from the closest step: the contact depends on its path.
-        let low = (gap - step).max(first);
-        let finer = (gap + step - low) / CLOSER as f64;
-        path.retain(|gap| *gap < low - 0.5 * step);
-        path.extend((0..=CLOSER).map(|i| low + finer * i as f64));
+        // Always from the closest step: the contact depends on its path.
+        scene.loading.path = retraction.gaps().to_vec();
+        scene.loading.until_apart = false;
     }
-    Ok(best)
 }
 
 /// The DMT treatment: a scan of contacts without adhesion for pull-off, then each load separately.

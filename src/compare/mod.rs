@@ -10,6 +10,7 @@ mod asperities;
 mod draw;
 mod field;
 mod load_scan;
+mod retraction;
 mod spectrum;
 mod table;
 
