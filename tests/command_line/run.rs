@@ -815,6 +815,27 @@ fn until_apart_pulls_in_finer_steps_until_the_surfaces_separate() {
     );
 }
 
+/// On a periodic grid a spring that is rigid beside the contact costs iterations and changes nothing.
+fn a_spring_that_gives_nothing_is_warned_of() {
+    let said = |spring: &str, boundary: &str| {
+        let (folder, _) = scene(LOOP);
+        let set = [
+            format!("loading.spring={spring}"),
+            format!("grid.boundary={boundary}"),
+        ];
+        let output = tabor(
+            folder.path(),
+            &["check", "scene.toml", "--set", &set[0], "--set", &set[1]],
+        );
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        errors(&output)
+    };
+    let warning = "times as stiff as a punch as wide as the grid: it gives nothing";
+    assert!(said("1e9", "periodic").contains(warning));
+    assert!(!said("1", "periodic").contains(warning));
+    assert!(!said("1e9", "free").contains(warning));
+}
+
 fn implausible_quantities_are_warned_of_with_the_likely_slip() {
     let said_of = |text: &str, set: &[&str]| {
         let (folder, _) = scene(text);
@@ -907,6 +928,7 @@ fn a_step_beyond_closure_is_called_what_it_is() {
 tests![
     a_step_beyond_closure_is_called_what_it_is,
     a_tabor_number_is_given_only_where_a_curvature_is_meant,
+    a_spring_that_gives_nothing_is_warned_of,
     implausible_quantities_are_warned_of_with_the_likely_slip,
     until_apart_pulls_in_finer_steps_until_the_surfaces_separate,
     the_last_words_and_the_first_line_of_the_report_state_the_result,
