@@ -82,6 +82,7 @@ const CALLS: &[BadCall] = &[
     call(&["check", "good.toml", "--set", "grid.size='3'"], "UnitError::NoUnit", "\"3\" has no unit; give a length in m"),
     call(&["check", "good.toml", "--set", "grid.size=3 kg"], "UnitError::UnknownUnit", "\"kg\" is not a unit that is known here; give a length in m"),
     call(&["check", "good.toml", "--set", "loading.path.1=3 um"], "UnitError::WrongUnit", "\"um\" is a length in m; give a pressure in Pa"),
+    call(&["fit", "curve.txt", "--spring-error", "10"], "UnitError::NoShare", "\"10\" must be a share, such as 0.1 or 10%"),
     call(&["check", "good.toml", "--set", "grid.points=9223372036854775807"], "SceneError::OutOfRange", "9223372036854775807 is out of range; it must be a whole number from 1 to 262144"),
     call(&["check", "good.toml", "--set", "grid.size=1e300"], "SceneError::OutOfRange", "grid.size: 1e300 is out of range; it must be 0 or between 1e-30 and 1e30 in SI units; check the powers of ten"),
     call(&["check", "good.toml", "--set", "surface.0.radius=1e-300"], "SceneError::OutOfRange", "surface.0.radius: 1e-300 is out of range; it must be 0 or between 1e-30 and 1e30"),
