@@ -1,7 +1,7 @@
 //! `fit`, `compare` and `accuracy` with curves and scenes that no author means: an answer or a refusal, never a
 //! panic, never a result that is not a number, never a long silence.
 //!
-//! `TABOR_MUTATIONS=100000 cargo test --profile tests --test command_line hostile_calls` tries more than the usual few. The cases
+//! `TABOR_MUTATIONS=100000 cargo test --release --test command_line hostile_calls` tries more than the usual few. The cases
 //! are the same in every run, more of them begin with the fewer. Those in this process take no time to start: of
 //! them more are tried.
 

@@ -173,7 +173,7 @@ fn is_kept(name: &str) -> bool {
 const RENEW: &str = "TABOR_RENEW_SHADERS";
 
 /// What a shader is now against what it was, line by line. Where a difference is meant the copies are renewed
-/// by `TABOR_RENEW_SHADERS=1 cargo test --profile tests --test gpu twins::`, and the difference is then git's.
+/// by `TABOR_RENEW_SHADERS=1 cargo test --release --test gpu twins::`, and the difference is then git's.
 fn assembled_shaders_are_those_that_are_kept() {
     let folder = root().join("tests/reference/shaders");
     let now: BTreeMap<String, String> = representative()
@@ -231,7 +231,7 @@ fn assembled_shaders_are_those_that_are_kept() {
     }
     assert!(
         differences.is_empty(),
-        "{differences}\nIf this is meant: {RENEW}=1 cargo test --profile tests --test gpu twins::"
+        "{differences}\nIf this is meant: {RENEW}=1 cargo test --release --test gpu twins::"
     );
 }
 

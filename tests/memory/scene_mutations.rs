@@ -3,7 +3,7 @@
 //!
 //! The same of what a fuzzer found to reach something new (fuzz/README.md).
 //!
-//! `TABOR_MUTATIONS=20000 cargo test --profile tests --test memory scene_mutations` tries more than the usual few.
+//! `TABOR_MUTATIONS=20000 cargo test --release --test memory scene_mutations` tries more than the usual few.
 
 #[path = "../../fuzz/reading.rs"]
 mod reading;

@@ -1,7 +1,7 @@
 //! What no choice of origin, axes, units or grid may change, and what every solution has: asked of
 //! random contacts.
 //!
-//! `TABOR_INVARIANTS=2000 cargo test --profile tests --test physics invariants` tries more than the usual few.
+//! `TABOR_INVARIANTS=2000 cargo test --release --test physics invariants` tries more than the usual few.
 //!
 //! The laws are so weak and long-ranged that the energy is convex at a held mean gap (their slope is at
 //! most `SOFTENING` of the softest wave's stiffness), so that there is one solution and two solves may be

@@ -1,6 +1,6 @@
 //! Maps with numbers that no instrument writes: a report in numbers or a refusal, never a panic.
 //!
-//! `TABOR_MUTATIONS=100000 cargo test --profile tests --lib hostile` tries more than the usual few. The cases
+//! `TABOR_MUTATIONS=100000 cargo test --release --lib hostile` tries more than the usual few. The cases
 //! are the same in every run, more of them begin with the fewer.
 
 use std::cell::Cell;

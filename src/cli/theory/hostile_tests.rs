@@ -1,7 +1,7 @@
 //! Each model with arguments that no author means: an answer or a refusal, never a panic, never a result
 //! that is no number, never a long silence.
 //!
-//! `TABOR_MUTATIONS=100000 cargo test --profile tests --lib hostile` tries more than the usual few. The cases
+//! `TABOR_MUTATIONS=100000 cargo test --release --lib hostile` tries more than the usual few. The cases
 //! are the same in every run, more of them begin with the fewer.
 
 use std::cell::Cell;

@@ -74,7 +74,7 @@ pub fn keep(entries: &[Entry], here: &[&Path], waits: impl Fn(&str, &Path) -> bo
         return;
     }
     let written: Vec<Entry> = rows.lines().map(Entry::from_line).collect();
-    let again = "TABOR_LONG=1 TABOR_HARD_CASES=write cargo test --profile tests --test physics hard_cases writes it anew";
+    let again = "TABOR_LONG=1 TABOR_HARD_CASES=write cargo test --release --test physics hard_cases writes it anew";
     for entry in entries {
         let found = written
             .iter()
