@@ -9,7 +9,7 @@ use crate::law::Law;
 use crate::run::memory_check;
 use crate::scene::{Boundary, Control};
 use crate::study::{Cost, Memory, Plan};
-use crate::surface::{Source, refused_on_ranks};
+use crate::surface::Source;
 use crate::theory::{Sphere, hertz};
 use crate::units::format_si;
 
@@ -18,9 +18,6 @@ pub(super) fn check(arguments: &CheckArguments) -> Result<(), Failure> {
     let scene = arguments.scene.read()?;
     let ranks = arguments.ranks.map_or(1, usize::from);
     memory_check::check_files(&scene, ranks)?;
-    if let (2.., Some(error)) = (ranks, refused_on_ranks(&scene)) {
-        return Err(arguments.scene.surface_failure(error));
-    }
     let plan = Plan::for_scene(scene).map_err(|error| arguments.scene.surface_failure(error))?;
     let place = plan.place();
     let cost = plan.cost(place)?;

@@ -6,7 +6,7 @@ use crate::backend::{BackendError, dry_run::Place, ranks::Ranks};
 use crate::grid::Grid;
 use crate::scene::{BackendName, Precision, Scene, SolverScene, SurfacePart};
 use crate::study::{Cost, Memory};
-use crate::surface::{MOST_POINTS, claimed_points, is_by_rows};
+use crate::surface::{MOST_POINTS, claimed_points};
 
 /// Environment variable that sets the memory a run may take, in bytes.
 const LIMIT: &str = "TABOR_MEMORY";
@@ -243,10 +243,10 @@ pub(super) fn check_scene_by(
 }
 
 /// Refuses height files that are longer than the memory, and those whose header claims more points than
-/// it holds: a small file may be a large image. Those that several ranks read by rows count with their fields.
+/// it holds: a small file may be a large image. What several ranks read by rows counts with their fields.
 pub(crate) fn check_files(scene: &Scene, ranks: usize) -> Result<(), MemoryError> {
     let files = scene.surfaces.iter().filter_map(|part| match part {
-        SurfacePart::File(file) if ranks < 2 || !is_by_rows(file) => Some(&file.path),
+        SurfacePart::File(file) if ranks < 2 => Some(&file.path),
         _ => None,
     });
     for path in files {

@@ -8,11 +8,9 @@ use super::cost::Cost;
 use crate::backend::Shape;
 use crate::backend::cpu::{exchange_bytes, largest_slab};
 use crate::grid::{Boundary, Grid};
-use crate::scene::{
-    AdhesionMap, Edges, FieldName, HeightFileScene, Scene, StepChoice, SurfacePart,
-};
+use crate::scene::{Edges, FieldName, Scene, StepChoice, SurfacePart};
 use crate::solver::{solved_shape, works_in_turn};
-use crate::surface::{is_by_rows, points_before_resampling};
+use crate::surface::points_before_resampling;
 
 /// A double on the host.
 pub(crate) const DOUBLE: u64 = 8;
@@ -183,8 +181,7 @@ impl Memory {
     }
 }
 
-/// Bytes while the heights of so many rows are made and their statistics taken. The first of several ranks holds files and maps
-/// whole that are not read by rows, one at a time; they exchange columns some at a time.
+/// Bytes while the heights of so many rows are made and their statistics taken. Several ranks exchange columns some at a time.
 fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
     let points = (rows * grid.nx) as u64;
     let spectrum = 2 * DOUBLE * ((grid.nx / 2 + 1) * rows) as u64;
@@ -199,20 +196,15 @@ fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
         _ => 3 * ROUND.min(2 * DOUBLE * ((grid.nx / 2 + 1).div_ceil(ranks) * grid.ny) as u64),
     };
     let files = scene.surfaces.iter().filter_map(|part| match part {
-        SurfacePart::File(file) => Some(DOUBLE * points + whole_file(file, whole, ranks)),
+        SurfacePart::File(_) => Some(DOUBLE * points),
         SurfacePart::Heights(_) => Some(whole),
         _ => None,
     });
-    // Of several ranks a file that one holds whole goes before the next one.
     let map = scene
         .adhesion
         .as_ref()
         .and_then(|adhesion| adhesion.map.as_ref());
     let map = match map {
-        Some(AdhesionMap::File(path)) if ranks > 1 => {
-            let file = HeightFileScene::new(path);
-            DOUBLE * points + whole_file(&file, whole, ranks)
-        }
         Some(_) if ranks > 1 => DOUBLE * points,
         _ => 0,
     };
@@ -255,15 +247,6 @@ fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
     let resampling = before + resampled.max().unwrap_or(0);
     let built = parts.max(resampling).max(statistics);
     built.max(DOUBLE * points + map)
-}
-
-/// Bytes of a file beside the held rows: several ranks read some by rows, and of another one the first rank holds all.
-fn whole_file(file: &HeightFileScene, whole: u64, ranks: usize) -> u64 {
-    if ranks > 1 && !is_by_rows(file) {
-        whole
-    } else {
-        0
-    }
 }
 
 /// Bytes of a result of so many points, of `all` of the grid, and of what is written of it: values that are worked out

@@ -1,7 +1,5 @@
 //! Maps from files over several processes, each of which keeps its rows. The first process reads a file some rows at a time and
-//! hands each on, so that none holds the map; what is asked of it all do together, each of its rows. Formats that give their numbers
-//! only together are read by the first process up to a number of points that is small beside the slab of a contact for which
-//! several processes are worth their while.
+//! hands each on, so that none holds the map; what is asked of it all do together, each of its rows.
 
 use super::error::{FileError, SurfaceError};
 use super::file::{self, HeightMap};
@@ -12,58 +10,11 @@ use crate::backend::Share;
 use crate::backend::ranks::{RankError, Ranks, agree};
 use crate::scene::{Boundary, Edges, HeightFileScene};
 
-/// The error of the first file of a scene that several processes refuse, as far as headers and lengths tell.
-#[cfg(feature = "cli")]
-pub(crate) fn refused_on_ranks(scene: &crate::scene::Scene) -> Option<SurfaceError> {
-    use super::{PartError, part_error};
-    use crate::scene::{AdhesionMap, SurfacePart};
-
-    let refused = |file: &HeightFileScene| {
-        // A text that is read by rows need not be read to its end.
-        if is_by_rows(file) {
-            return None;
-        }
-        match formats::open_map(&file.path, Opening::ByRows) {
-            Err(error @ FileError::Whole { .. }) => Some(error),
-            _ => None,
-        }
-    };
-    let of_part = |(index, part): (usize, &SurfacePart)| {
-        let SurfacePart::File(file) = part else {
-            return None;
-        };
-        let path = file.path.clone();
-        let problem = refused(file)?;
-        Some(part_error(index, PartError::File { path, problem }))
-    };
-    let adhesion = scene.adhesion.as_ref();
-    let map = || match adhesion?.map.as_ref()? {
-        AdhesionMap::File(path) => Some(SurfaceError::AdhesionMap {
-            path: path.clone(),
-            problem: Box::new(refused(&HeightFileScene::new(path))?.into()),
-        }),
-        _ => None,
-    };
-    scene
-        .surfaces
-        .iter()
-        .enumerate()
-        .find_map(of_part)
-        .or_else(map)
-}
-
-/// Whether no process holds the whole of a file.
-pub(crate) fn is_by_rows(scene: &HeightFileScene) -> bool {
-    // A format that would hold a single point refuses.
-    formats::open_map(&scene.path, Opening::Glance)
-        .is_ok_and(|map| matches!(map.values, Numbers::Rows(_)))
-}
-
 /// Points of the map of a file that several processes resample, as it is before; of a text about so many rows.
 pub(crate) fn points_before_resampling(scene: &HeightFileScene) -> Option<[usize; 2]> {
     let asked = &scene.preparation;
     asked.resample?;
-    let map = formats::open_map(&scene.path, Opening::Glance).ok()?;
+    let map = formats::glance(&scene.path).ok()?;
     let mut points = match asked.profile {
         true => [map.columns.max(map.rows), 1],
         false => [map.columns, map.rows],
@@ -155,25 +106,8 @@ impl Reading<'_> {
         } else {
             Ok(None)
         };
-        // All refuse a large one, in the same words.
-        let refused = match &found {
-            Err(FileError::Whole { points, length }) => {
-                let [columns, rows] = points.unwrap_or_default();
-                [columns as f64, rows as f64, *length as f64]
-            }
-            _ => [0.0; 3],
-        };
-        let refused = anyone.told(anyone.is_first().then_some(refused));
         if let Some(error) = anyone.failure() {
             return Err(error.into());
-        }
-        if refused != [0.0; 3] {
-            let [columns, rows, length] = refused;
-            let points = [columns as usize, rows as usize];
-            return Err((self.wrong)(FileError::Whole {
-                points: (points != [0; 2]).then_some(points),
-                length: length as u64,
-            }));
         }
         agree(ranks, found.map_err(self.wrong))
     }

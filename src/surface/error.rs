@@ -5,7 +5,6 @@ use std::path::PathBuf;
 
 use thiserror::Error;
 
-use super::matrix::MOST_WHOLE;
 use super::{MOST_POINTS, MapError};
 use crate::units::{cut, quoted};
 
@@ -415,17 +414,26 @@ pub enum FileError {
         /// Points in the file, or those counted so far.
         points: u64,
     },
-    /// A file that one of several processes would hold whole.
+    /// A line of a text that is too long for several processes, of which the first holds a line at a time.
     #[error(
-        "{} are more than the {MOST_WHOLE} points that the first of several processes reads whole; prepare the file once on one \
-         process (tabor surface writes heights.npy, which is read by rows)",
-        amount(*points, *length)
+        "line {line} has more than {longest} bytes, the longest that is read by several processes; prepare the file once on one process \
+         (tabor surface writes heights.npy)"
     )]
-    Whole {
-        /// Points along x and y, where they are known without reading the file.
-        points: Option<[usize; 2]>,
-        /// Its length, bytes.
-        length: u64,
+    LongLine {
+        /// Line of the file.
+        line: usize,
+        /// Bytes of the longest line that is read.
+        longest: u64,
+    },
+    /// Numbers in another order than that of rows, which are sorted in a temporary file, and no such file.
+    #[error(
+        "its numbers are not in the order of rows, and cannot be sorted in a temporary file in {}: {source}; TMPDIR names another folder, \
+         and tabor surface prepares the file once on one process (heights.npy)",
+        std::env::temp_dir().display()
+    )]
+    Sorting {
+        /// What is wrong with the temporary file.
+        source: std::io::Error,
     },
     /// More missing pixels or outliers than several processes fill.
     #[error(
@@ -563,12 +571,4 @@ pub enum FileError {
         /// Size of that, m.
         size: [f64; 2],
     },
-}
-
-/// What a file holds, as far as it is known.
-fn amount(points: Option<[usize; 2]>, length: u64) -> String {
-    match points {
-        Some([columns, rows]) => format!("{columns} x {rows} points"),
-        None => format!("{length} bytes of numbers"),
-    }
 }

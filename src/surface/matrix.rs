@@ -6,10 +6,6 @@ use super::formats::Numbers;
 /// Most numbers of the rows that are read and passed over at once, or those of one row.
 pub(super) const PASSED: usize = 1 << 20;
 
-/// Points of the largest file that the first of several processes reads whole, 4096 x 4096: 128 MiB of heights, a few times as
-/// much while it is read, where a slab of a contact that needs several machines has gigabytes.
-pub(super) const MOST_WHOLE: usize = 1 << 24;
-
 /// Numbers of a height file before unit, scale and detrending.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub(super) struct Matrix<V = Vec<f64>> {

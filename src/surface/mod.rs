@@ -37,9 +37,7 @@ pub mod spectrum;
 pub mod statistics;
 
 pub use adhesion_map::MapError;
-#[cfg(feature = "cli")]
-pub(crate) use by_rows::refused_on_ranks;
-pub(crate) use by_rows::{is_by_rows, points_before_resampling};
+pub(crate) use by_rows::points_before_resampling;
 pub use error::{FileError, PartError, SurfaceError};
 #[doc(hidden)]
 pub use formats::claimed_points;

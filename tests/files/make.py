@@ -1,6 +1,6 @@
 """Makes the height files of this folder with other programs, and values.csv with what other programs read from them.
 
-pip install numpy SurfaceTopography surfalize gwyfile gsffile rasterio pillow tifffile; then python make.py.
+pip install numpy SurfaceTopography surfalize gwyfile gsffile rasterio pillow tifffile imagecodecs pypng; then python make.py.
 The files gwyddion.* are left as they are: Gwyddion 2.62 saved them from the heights h below.
 """
 import glob
@@ -67,6 +67,17 @@ tifffile.imwrite(p("tifffile_16.tif"), g16, byteorder='>')
 tifffile.imwrite(p("tifffile_white_is_zero.tif"), (65535-g16).astype(np.uint16), photometric='miniswhite')
 tifffile.imwrite(p("tifffile_deflate.tif"), g16, compression='zlib', predictor=True, tile=(16,16))
 tifffile.imwrite(p("tifffile_float.tif"), (h*1e9).astype(np.float32))
+# One strip or few, packed in all ways; the last with 0 as white.
+f32 = (h*1e9).astype(np.float32)
+tifffile.imwrite(p("tifffile_planes.tif"), f32, compression='zlib', predictor=3, byteorder='>', rowsperstrip=NY)
+tifffile.imwrite(p("tifffile_planes_64.tif"), f32.astype(np.float64), compression='zlib', predictor=3, tile=(16, 16))
+tifffile.imwrite(p("tifffile_strips.tif"), g16, compression='lzw', predictor=2, byteorder='>', rowsperstrip=4)
+with rasterio.open(p("gdal_differences.tif"), "w", driver="GTiff", width=NX, height=NY, count=1, dtype="float32", compress="LZW", predictor=2, blockysize=NY) as d:
+    d.write(f32, 1)
+tifffile.imwrite(p("tifffile_packbits.tif"), (255-g8).astype(np.uint8), compression='packbits', photometric='miniswhite', rowsperstrip=NY)
+import png
+with open(p("pypng_interlaced.png"), "wb") as file:
+    png.Writer(NX, NY, greyscale=True, bitdepth=16, interlace=True).write(file, g16.tolist())
 # NumPy
 np.save(p("numpy_half.npy"), (h*1e9).astype(np.float16))
 np.save(p("numpy_fortran.npy"), np.asfortranarray((h*1e9).astype('>f4')))
@@ -91,7 +102,7 @@ def read(path):
                 data[data >= 1.7e38] = np.nan
                 # North is up there; the unit of all three coordinates is nm here.
                 return "GDAL", data[::-1] * 1e-9, (d.width * d.transform.a * 1e-9, -d.height * d.transform.e * 1e-9)
-        if "white_is_zero" in name:
+        if "white_is_zero" in name or "packbits" in name:
             data = shades - data
         return "GDAL", data / shades if shades else data * 1e-9, None
     if name.endswith(".npy"):

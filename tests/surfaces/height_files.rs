@@ -22,7 +22,7 @@ fn good(name: &str) -> Vec<u8> {
 
 /// Metres in the unit of a file of the collection that does not say it; see its README.
 fn unit(name: &str) -> f64 {
-    let in_nanometres = ["gdal", "numpy", "tifffile_float"];
+    let in_nanometres = ["gdal", "numpy", "tifffile_float", "tifffile_planes"];
     if in_nanometres.iter().any(|start| name.starts_with(start)) {
         1e-9
     } else {
@@ -31,7 +31,9 @@ fn unit(name: &str) -> f64 {
 }
 
 fn is_image(name: &str) -> bool {
-    (name.ends_with(".png") || name.ends_with(".tif")) && name != "tifffile_float.tif"
+    let holds_heights = ["differences", "float", "planes"];
+    let is_shades = !holds_heights.iter().any(|kind| name.contains(kind));
+    name.ends_with(".png") || name.ends_with(".tif") && is_shades
 }
 
 fn build(name: &str, fill: Fill, size: Option<[f64; 2]>) -> Result<Surface, String> {

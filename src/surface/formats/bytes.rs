@@ -1,13 +1,12 @@
 //! Reads a binary file number by number, without holding it; every error has its offset.
 
 use std::cell::RefCell;
-use std::io::{BufReader, Cursor, Read, Seek, SeekFrom};
+use std::io::{BufReader, Read, Seek, SeekFrom};
 use std::rc::Rc;
 
 use super::numbers::{Numbers, RawRows};
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
-use crate::surface::matrix::MOST_WHOLE;
 
 /// What a file is read from.
 pub(super) trait Source: Read + Seek {}
@@ -19,15 +18,15 @@ impl<S: Read + Seek> Source for S {}
 pub(in crate::surface) enum Opening {
     /// To be read by one process, which may hold all of it.
     Whole,
-    /// To be read some rows at a time; of a format that gives its numbers only together [`MOST_WHOLE`] points may be held.
+    /// To be read some rows at a time, of which alone are held.
     ByRows,
-    /// To see whether it is read by rows, and of how many points: none is held, and of a text the beginning tells.
+    /// To see of how many points it is: none is read, and of a text the beginning tells.
     Glance,
 }
 
-/// Bytes that a text may take for each point of the most that are held: a longer one has more points, or says in its
-/// header how many.
-const LONGEST_NUMBER: u64 = 32;
+/// Bytes of the longest line of a text of which several processes read some rows at a time, 512 MiB: more numbers than a grid
+/// has points along x.
+const LONGEST_LINE: u64 = 1 << 29;
 
 /// Bytes in which the end of a text is looked for.
 const PIECE: usize = 256;
@@ -70,10 +69,11 @@ impl Bytes {
         }
     }
 
-    /// Bytes in memory, of which all may be held.
+    /// Bytes in memory.
+    #[cfg(test)]
     pub(super) fn held(bytes: Vec<u8>) -> Self {
         let length = bytes.len();
-        Bytes::new(Cursor::new(bytes), length, Opening::Whole)
+        Bytes::new(std::io::Cursor::new(bytes), length, Opening::Whole)
     }
 
     /// The same bytes as those of a format, by its name in messages.
@@ -104,15 +104,6 @@ impl Bytes {
     /// What it is opened for.
     pub(super) fn opening(&self) -> Opening {
         self.opening
-    }
-
-    /// Points of the largest map that may be held whole.
-    fn most(&self) -> usize {
-        match self.opening {
-            Opening::Whole => usize::MAX,
-            Opening::ByRows => MOST_WHOLE,
-            Opening::Glance => 0,
-        }
     }
 
     /// The first bytes of the file, of at most `length`.
@@ -204,34 +195,12 @@ impl Bytes {
         file.take(count.min(self.length), "the file")
     }
 
-    /// Refuses to hold so many bytes of numbers at once, if that is more than the largest map takes.
-    pub(super) fn expect_held_bytes(&self, length: u64) -> Result<(), FileError> {
-        if length > LONGEST_NUMBER.saturating_mul(self.most() as u64) {
-            return Err(FileError::Whole {
-                points: None,
-                length,
-            });
-        }
-        Ok(())
-    }
-
     /// Bytes of the longest line of a text, of which one is held.
     pub(super) fn longest_line(&self) -> u64 {
         match self.opening {
             Opening::Whole => u64::MAX,
-            Opening::ByRows | Opening::Glance => LONGEST_NUMBER * MOST_WHOLE as u64,
+            Opening::ByRows | Opening::Glance => LONGEST_LINE,
         }
-    }
-
-    /// Refuses a map that is held whole and has more points than that.
-    pub(super) fn expect_held(&self, [rows, columns]: [usize; 2]) -> Result<(), FileError> {
-        if rows.saturating_mul(columns) > self.most() {
-            return Err(FileError::Whole {
-                points: Some([columns, rows]),
-                length: 0,
-            });
-        }
-        Ok(())
     }
 
     /// The next bytes as an array.

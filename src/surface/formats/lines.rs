@@ -8,9 +8,8 @@ use crate::surface::error::FileError;
 /// The lines from a place of a file on.
 pub(super) struct Lines {
     stream: BufReader<Stream>,
-    /// Bytes of the longest line that is held, and of the file.
+    /// Bytes of the longest line that is held.
     longest: u64,
-    length: u64,
     end: u8,
     decode: fn(Vec<u8>) -> String,
     number: usize,
@@ -39,7 +38,6 @@ impl Lines {
         Lines {
             stream: file.rest(),
             longest: file.longest_line(),
-            length: file.length() as u64,
             end,
             decode,
             number: 0,
@@ -58,9 +56,9 @@ impl Lines {
         let count = stream.read_until(self.end, &mut bytes);
         let count = count.map_err(FileError::Read)? as u64;
         if count > self.longest {
-            return Err(FileError::Whole {
-                points: None,
-                length: self.length,
+            return Err(FileError::LongLine {
+                line: self.number + 1,
+                longest: self.longest,
             });
         }
         if bytes.last() == Some(&self.end) {
@@ -115,9 +113,9 @@ mod tests {
         assert!(
             matches!(
                 error,
-                FileError::Whole {
-                    points: None,
-                    length: 8
+                FileError::LongLine {
+                    line: 2,
+                    longest: 3
                 }
             ),
             "{error}"

@@ -5,8 +5,9 @@ use std::io::BufReader;
 
 use png::{BitDepth, ColorType, Decoder, DecodingError, Reader, Transformations};
 
-use super::bytes::{Bytes, Stream, checked_shape, with_capacity, zeros};
+use super::bytes::{Bytes, Opening, Stream, checked_shape};
 use super::numbers::{Decode, NumberRows, Numbers, decoded};
+use super::unordered::Unordered;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix};
 
@@ -16,6 +17,20 @@ pub(super) const MAGIC: &[u8] = b"\x89PNG\r\n\x1a\n";
 /// Most bytes of pixels that a byte of a compressed file can encode: LZW packs up to 3840 bytes
 /// into a code of 12 bits, deflate 1032 into a byte.
 pub(super) const LARGEST_RATIO: usize = 4096;
+
+/// The seven passes of an interlaced image, in each the first row and column and the steps to the next.
+///
+/// # Source
+/// W3C, "Portable Network Graphics (PNG) Specification", 2nd edition (2003), section 8.2.
+const PASSES: [[usize; 4]; 7] = [
+    [0, 0, 8, 8],
+    [0, 4, 8, 8],
+    [4, 0, 8, 4],
+    [0, 2, 4, 4],
+    [2, 0, 4, 2],
+    [0, 1, 2, 2],
+    [1, 0, 2, 1],
+];
 
 /// Columns and rows of an image, from its header.
 pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
@@ -28,7 +43,7 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let mut image = Decoder::new(file.stream());
     // Shades of fewer bits as bytes.
     image.set_transformations(Transformations::EXPAND);
-    let mut image = image.read_info().map_err(broken)?;
+    let image = image.read_info().map_err(broken)?;
     let (columns, rows) = image.info().size();
     let shape = checked_shape(rows.into(), columns.into())?;
     let size = match image.output_color_type() {
@@ -42,21 +57,17 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     } else {
         decoded(|shade| f64::from(u16::from_be_bytes(shade)) / f64::from(u16::MAX))
     };
-    let numbers = if image.info().interlaced {
-        file.expect_held(shape)?;
-        // Rows of an interlaced image come in seven passes.
-        let mut pixels = zeros(shape[0] * shape[1] * size)?;
-        image.next_frame(&mut pixels).map_err(broken)?;
-        let mut values = with_capacity(shape)?;
-        values.resize(shape[0] * shape[1], 0.0);
-        decode(&pixels, &mut values);
-        Numbers::Held(values)
-    } else {
-        Numbers::Rows(Box::new(ImageRows {
-            image,
-            line: vec![0; shape[1] * size],
-            decode,
-        }))
+    let line = vec![0; shape[1] * size];
+    let rows = ImageRows {
+        image,
+        line,
+        decode,
+    };
+    let numbers = match file.opening() {
+        // No row is read.
+        Opening::Glance => Numbers::Rows(Box::new(rows)),
+        opening if rows.image.info().interlaced => rows.interlaced(shape, opening)?,
+        _ => Numbers::Rows(Box::new(rows)),
     };
     Ok(Matrix {
         grey: true,
@@ -64,21 +75,53 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     })
 }
 
-/// Rows of an image that is not interlaced.
+/// Rows of an image, as they come.
 struct ImageRows {
     image: Reader<BufReader<Stream>>,
     line: Vec<u8>,
     decode: Decode,
 }
 
+impl ImageRows {
+    /// The next row, or that of a pass, of as many pixels as there are values.
+    fn row(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        self.image.read_row(&mut self.line).map_err(broken)?;
+        (self.decode)(&self.line, values);
+        Ok(())
+    }
+
+    /// The numbers of an interlaced image, of which those of a row come in several passes.
+    fn interlaced(
+        mut self,
+        [rows, columns]: [usize; 2],
+        opening: Opening,
+    ) -> Result<Numbers, FileError> {
+        let mut unordered = Unordered::new([rows, columns], opening)?;
+        let mut shades = vec![0.0; columns];
+        for [first_row, first_column, rows_on, columns_on] in PASSES {
+            let places = (first_column..columns).step_by(columns_on);
+            // Where the image is too narrow for a pass, it has no rows.
+            if places.len() == 0 {
+                continue;
+            }
+            let shades = &mut shades[..places.len()];
+            for row in (first_row..rows).step_by(rows_on) {
+                self.row(shades)?;
+                for (column, shade) in places.clone().zip(&*shades) {
+                    unordered.put(row * columns + column, *shade)?;
+                }
+            }
+        }
+        Ok(unordered.numbers())
+    }
+}
+
 impl NumberRows for ImageRows {
     fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
         let columns = self.image.info().width as usize;
-        for row in values.chunks_exact_mut(columns) {
-            self.image.read_row(&mut self.line).map_err(broken)?;
-            (self.decode)(&self.line, row);
-        }
-        Ok(())
+        values
+            .chunks_exact_mut(columns)
+            .try_for_each(|row| self.row(row))
     }
 }
 

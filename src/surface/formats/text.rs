@@ -5,6 +5,7 @@
 //! first line of words is a header, blank lines are skipped. Empty fields and `nan`, `na`, `n/a`
 //! are missing pixels.
 
+use std::borrow::Borrow;
 use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
 use std::ops::Range;
 
@@ -12,7 +13,7 @@ use super::bytes::{Bytes, Opening};
 use super::lines::Lines;
 use super::numbers::{NumberRows, Numbers};
 use super::remarks::Remarks;
-use super::xyz;
+use super::xyz::{self, NoGrid};
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
@@ -49,34 +50,15 @@ struct Line<'a> {
 /// Binary content, a field that is not a number, or rows of different length, with line, row and
 /// column from 1. All are found before the first row is given.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
-    let length = file.length();
-    let keeps = file.opening() == Opening::Whole;
-    let file = match file.opening() {
-        Opening::Glance => beginning(file)?,
-        _ => file,
-    };
-    let text = Text::new(&file)?;
-    let mut matrix = text.matrix(keeps)?;
-    // Of a beginning as many more as the file is longer.
-    matrix.rows = (matrix.rows as u128 * length as u128 / file.length() as u128) as usize;
+    let opening = file.opening();
+    let (text, matrix) = open(file)?;
     // A size in the comments means that this is a matrix of heights.
-    if matrix.size.is_none() && xyz::may_be_grid(&matrix) {
-        file.expect_held_bytes(length as u64)?;
-        let kept;
-        let points = if keeps {
-            &matrix
-        } else {
-            // A map has at least a point for each.
-            file.expect_held([matrix.rows, 1])?;
-            kept = text.matrix(true)?;
-            &kept
-        };
-        if let Some(map) = xyz::as_grid(points, text.remarks.lateral_unit) {
-            file.expect_held([map.rows, map.columns])?;
-            return Ok(map.into());
-        }
+    if matrix.size.is_none()
+        && let Some(map) = xyz::as_grid(&text, &matrix, opening)?
+    {
+        return Ok(map);
     }
-    if keeps {
+    if opening == Opening::Whole {
         return Ok(matrix.into());
     }
     let header = matrix.split().1;
@@ -87,6 +69,23 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
         given: 0,
     };
     Ok(header.with(Numbers::Rows(Box::new(rows))))
+}
+
+/// A text of numbers and these, all checked, but kept only where one process reads the whole; at a glance about so many rows.
+///
+/// # Errors
+/// As [`read`].
+pub(super) fn open(file: Bytes) -> Result<(Text, Matrix), FileError> {
+    let (opening, length) = (file.opening(), file.length());
+    let file = match opening {
+        Opening::Glance => beginning(file)?,
+        _ => file,
+    };
+    let text = Text::new(&file)?;
+    let mut matrix = text.matrix(opening == Opening::Whole)?;
+    // Of a beginning as many more as the file is longer.
+    matrix.rows = (matrix.rows as u128 * length as u128 / file.length() as u128) as usize;
+    Ok((text, matrix))
 }
 
 /// The file up to the line in which its beginning ends.
@@ -107,18 +106,8 @@ fn beginning(file: Bytes) -> Result<Bytes, FileError> {
     }
 }
 
-/// Reads the numbers of a text file line by line, and the entries of its comments.
-///
-/// # Errors
-/// As [`read`], and more bytes than may be held.
-pub(super) fn read_columns(file: &Bytes) -> Result<(Matrix, Remarks), FileError> {
-    file.expect_held_bytes(file.length() as u64)?;
-    let text = Text::new(file)?;
-    Ok((text.matrix(true)?, text.remarks))
-}
-
 /// A text of numbers. Each pass reads its lines again, so that they need no memory.
-struct Text {
+pub(super) struct Text {
     /// From the first line on.
     file: Bytes,
     line_end: u8,
@@ -231,6 +220,41 @@ impl Text {
         })
     }
 
+    /// Hands on each row of three numbers with its place, from 1: those of `numbers` that are kept, or from the file again.
+    ///
+    /// # Errors
+    /// What `take` says; the file cannot be read.
+    pub(super) fn points(
+        &self,
+        numbers: &Matrix,
+        take: &mut dyn FnMut(usize, [f64; 3]) -> Result<(), NoGrid>,
+    ) -> Result<(), NoGrid> {
+        let (kept, _) = numbers.values.as_chunks();
+        for (row, point) in kept.iter().enumerate() {
+            take(row + 1, *point)?;
+        }
+        if !kept.is_empty() {
+            return Ok(());
+        }
+        let mut rows = TextRows {
+            lines: self.lines(),
+            text: self,
+            columns: 3,
+            given: 0,
+        };
+        let mut point = [0.0; 3];
+        for row in 1..=numbers.rows {
+            rows.next(&mut point)?;
+            take(row, point)?;
+        }
+        Ok(())
+    }
+
+    /// Metres per unit of x and y of points, if its comments state it.
+    pub(super) fn lateral_unit(&self) -> Option<f64> {
+        self.remarks.lateral_unit
+    }
+
     /// The numbers of a line, which is that of a row, at most so many.
     fn numbers<'a>(
         &self,
@@ -299,22 +323,22 @@ impl NumberLines {
 }
 
 /// Rows of a text whose numbers have been checked.
-struct TextRows {
-    text: Text,
+struct TextRows<T> {
+    text: T,
     lines: NumberLines,
     columns: usize,
     /// Rows given so far.
     given: usize,
 }
 
-impl NumberRows for TextRows {
+impl<T: Borrow<Text>> NumberRows for TextRows<T> {
     fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
         // Another program may have cut the file since.
         let cut = || FileError::Read(ErrorKind::UnexpectedEof.into());
         for row in values.chunks_exact_mut(self.columns) {
             self.given += 1;
             let line = self.lines.next()?.ok_or_else(cut)?;
-            let mut numbers = self.text.numbers(&line, self.given, self.columns);
+            let mut numbers = self.text.borrow().numbers(&line, self.given, self.columns);
             for value in row {
                 *value = numbers.next().ok_or_else(cut)??;
             }

@@ -9,9 +9,10 @@ use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::{ByteOrder, CompressionMethod, PhotometricInterpretation, SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
 
-use super::bytes::{Bytes, Stream, checked_shape};
+use super::bytes::{Bytes, Opening, Stream, checked_shape};
 use super::numbers::{NumberRows, Numbers};
 use super::png::{first_line, not_grey, refuse_ratio};
+use super::tiff_streams::Streams;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix};
 
@@ -21,7 +22,7 @@ pub(super) const MAGIC: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
 /// Room for the decoder's own tables, bytes.
 const TABLES: usize = 1 << 20;
 
-/// Numbers of strips or tiles beside each other that do not count as held.
+/// Numbers of strips or tiles beside each other that are unpacked at once where several processes read the file.
 const LARGEST_BAND: usize = 1 << 20;
 
 /// Columns and rows of the first image, from its directory.
@@ -32,6 +33,11 @@ pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
 
 /// Reads the first image of a file.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
+    read_held(file, LARGEST_BAND)
+}
+
+/// The same, of which at most so many numbers are unpacked at once where several processes read the file.
+fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
     let mut image = Decoder::new(file.stream()).map_err(broken)?;
     let (columns, rows) = image.dimensions().map_err(broken)?;
     let shape = checked_shape(rows.into(), columns.into())?;
@@ -60,20 +66,27 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
         Some(start) => plain(file, start, shape, bits, image.byte_order())?,
         None => {
             let chunk = chunk(&mut image, shape).map_err(broken)?;
-            // Of wide strips one may be the whole map.
-            if chunk[0] * shape[1] > LARGEST_BAND || chunk[0] >= shape[0] {
-                file.expect_held([chunk[0].min(shape[0]), shape[1]])?;
+            // One strip may be the whole map.
+            let is_large = chunk[0].saturating_mul(shape[1]) > most;
+            let is_streamed = file.opening() == Opening::ByRows && is_large;
+            let streams = is_streamed.then(|| {
+                Streams::new(&mut image, &file, [shape, chunk], (bits, is_float)).map_err(broken)
+            });
+            match streams.transpose()?.flatten() {
+                Some(streams) => streams.numbers()?,
+                None => {
+                    let mut limits = Limits::default();
+                    limits.decoding_buffer_size = chunk[0] * chunk[1] * size;
+                    limits.intermediate_buffer_size = chunk[0] * chunk[1] * size + TABLES;
+                    Numbers::Rows(Box::new(ChunkedRows {
+                        image: image.with_limits(limits),
+                        shape,
+                        chunk,
+                        band: Vec::new(),
+                        given: 0,
+                    }))
+                }
             }
-            let mut limits = Limits::default();
-            limits.decoding_buffer_size = chunk[0] * chunk[1] * size;
-            limits.intermediate_buffer_size = chunk[0] * chunk[1] * size + TABLES;
-            Numbers::Rows(Box::new(ChunkedRows {
-                image: image.with_limits(limits),
-                shape,
-                chunk,
-                band: Vec::new(),
-                given: 0,
-            }))
         }
     };
     Ok(Matrix {
@@ -226,9 +239,81 @@ fn numbers(pixels: DecodingResult) -> Result<Vec<f64>, FileError> {
     })
 }
 
-fn broken(error: TiffError) -> FileError {
+/// The error for an image that cannot be read.
+pub(super) fn broken(error: impl std::fmt::Display) -> FileError {
     FileError::BrokenImage {
         format: "TIFF",
         what: first_line(&error.to_string()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use proptest::prelude::*;
+    use std::io::Cursor;
+
+    /// Packed in every way: strips and tiles, both orders of bytes, each predictor, 0 as black and as white.
+    const PACKED: [&[u8]; 8] = [
+        include_bytes!("../../../tests/files/gdal_differences.tif"),
+        include_bytes!("../../../tests/files/pillow_lzw.tif"),
+        include_bytes!("../../../tests/files/tifffile_deflate.tif"),
+        include_bytes!("../../../tests/files/tifffile_packbits.tif"),
+        include_bytes!("../../../tests/files/tifffile_planes.tif"),
+        include_bytes!("../../../tests/files/tifffile_planes_64.tif"),
+        include_bytes!("../../../tests/files/tifffile_strips.tif"),
+        include_bytes!("../../../tests/files/tifffile_white_is_zero.tif"),
+    ];
+
+    fn whole(bytes: &[u8]) -> Result<Matrix, FileError> {
+        let source = Cursor::new(bytes.to_vec());
+        read(Bytes::new(source, bytes.len(), Opening::Whole))?.read()
+    }
+
+    /// With nothing unpacked at once but a row.
+    fn streamed(bytes: &[u8]) -> Result<Matrix, FileError> {
+        let source = Cursor::new(bytes.to_vec());
+        read_held(Bytes::new(source, bytes.len(), Opening::ByRows), 0)?.read()
+    }
+
+    fn same(one: &Matrix, other: &Matrix) -> bool {
+        let bits = |matrix: &Matrix| {
+            matrix
+                .values
+                .iter()
+                .map(|v| v.to_bits())
+                .collect::<Vec<_>>()
+        };
+        bits(one) == bits(other)
+    }
+
+    #[test]
+    fn rows_are_unpacked_to_the_same_bits() {
+        for (which, bytes) in PACKED.iter().enumerate() {
+            let (one, other) = (whole(bytes).unwrap(), streamed(bytes).unwrap());
+            assert!(same(&one, &other), "{which}");
+        }
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(2000))]
+
+        /// Changed and missing bytes give an error or, where the whole can be read, the same.
+        #[test]
+        fn modified_strips_give_an_error_or_rows(
+            which in 0..PACKED.len(),
+            changes in prop::collection::vec((0.0..1.0_f64, any::<u8>()), 0..4),
+            kept in prop_oneof![3 => Just(1.0), 1 => 0.0..1.0_f64],
+        ) {
+            let mut bytes = PACKED[which].to_vec();
+            for (place, byte) in changes {
+                let place = (place * bytes.len() as f64) as usize;
+                bytes[place] = byte;
+            }
+            bytes.truncate((kept * bytes.len() as f64) as usize);
+            if let (Ok(one), Ok(other)) = (whole(&bytes), streamed(&bytes)) {
+                prop_assert!(same(&one, &other));
+            }
+        }
     }
 }

@@ -11,11 +11,9 @@ use crate::surface::matrix::{Map, Matrix, Size};
 /// First bytes of a file.
 pub(super) const MAGIC: [&[u8]; 4] = [b"VK3_", b"VK4_", b"VK6", b"VK7"];
 
-/// The map within an archive, and the longest one read.
+/// The map within an archive.
 #[cfg(feature = "images")]
 const MEMBER: &str = "Vk4File";
-#[cfg(feature = "images")]
-const LONGEST: u64 = 1 << 31;
 
 /// Offsets of the table, and of the entry for heights in it.
 const TABLE: usize = 12;
@@ -34,33 +32,31 @@ const PALETTE: usize = 768;
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let start = file.beginning(MAGIC[2].len())?;
     if start == MAGIC[2] || start == MAGIC[3] {
-        return read_map(Bytes::held(member(file)?));
+        return read_map(member(file)?);
     }
     read_map(file)
 }
 
 /// The map within an archive.
 #[cfg(feature = "images")]
-fn member(file: Bytes) -> Result<Vec<u8>, FileError> {
-    use std::io::Read;
+fn member(file: Bytes) -> Result<Bytes, FileError> {
+    use super::zip_entry::ZipEntry;
 
     let file = file.named(".vk6");
     let broken = |what: String| file.broken(0, what);
     let archive = zip::ZipArchive::new(file.stream());
     let mut archive =
         archive.map_err(|error| broken(format!("its archive is not whole ({error})")))?;
-    let entry = archive.by_name(MEMBER);
-    let entry =
-        entry.map_err(|error| broken(format!("{MEMBER} is not in its archive ({error})")))?;
-    file.expect_held_bytes(entry.size())?;
-    let mut map = Vec::new();
-    let read = entry.take(LONGEST).read_to_end(&mut map);
-    read.map_err(|error| broken(format!("{MEMBER} cannot be read ({error})")))?;
-    Ok(map)
+    let entry = ZipEntry::open(&file, &mut archive, MEMBER);
+    let entry = entry
+        .map_err(|error| broken(format!("{MEMBER} of its archive cannot be read ({error})")))?;
+    let length = usize::try_from(entry.length()).unwrap_or(usize::MAX);
+    let opening = file.opening();
+    Ok(Bytes::new(entry, length, opening))
 }
 
 #[cfg(not(feature = "images"))]
-fn member(_: Bytes) -> Result<Vec<u8>, FileError> {
+fn member(_: Bytes) -> Result<Bytes, FileError> {
     Err(FileError::NotSupported {
         what: "Keyence archives (.vk6, .vk7) in a build without images",
         instead: "save the map as .vk4",

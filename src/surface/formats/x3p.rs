@@ -4,14 +4,14 @@
 //! ISO 25178-72:2017; OpenGPS, "X3P", <https://sourceforge.net/p/open-gps/mwiki/X3p/>.
 
 use std::fs::File;
-use std::io::{BufReader, Read, Seek, SeekFrom};
+use std::io::{BufReader, Read, Seek};
 
-use flate2::bufread::DeflateDecoder;
 use roxmltree::{Document, Node};
-use zip::{CompressionMethod, ZipArchive};
+use zip::ZipArchive;
 
 use super::bytes::{Bytes, checked_shape};
 use super::numbers::{Decode, NumberRows, Numbers, decoded};
+use super::zip_entry::ZipEntry;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
@@ -53,16 +53,7 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let shape = description.shape;
     let [rows, columns] = shape;
     let [dx, dy] = description.pixel;
-    let entry = archive.by_name(&description.numbers).map_err(broken)?;
-    let mut packed = file.stream();
-    let start = entry.data_start().unwrap_or(u64::MAX);
-    packed.seek(SeekFrom::Start(start)).map_err(broken)?;
-    let packed = packed.take(entry.compressed_size());
-    let numbers: Box<dyn Read> = match entry.compression() {
-        CompressionMethod::Stored => Box::new(packed),
-        CompressionMethod::Deflated => Box::new(DeflateDecoder::new(packed)),
-        other => return Err(broken(format!("it is compressed by {other}"))),
-    };
+    let numbers = ZipEntry::open(&file, &mut archive, &description.numbers).map_err(broken)?;
     let stream = |size, decode| StreamedRows {
         numbers,
         shape,
@@ -86,7 +77,7 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
 
 /// Rows as they are unpacked.
 struct StreamedRows {
-    numbers: Box<dyn Read>,
+    numbers: ZipEntry,
     shape: [usize; 2],
     /// Bytes of a number.
     size: usize,

@@ -2,8 +2,12 @@
 //!
 //! Grid points that the file lacks are missing pixels. Rows of the map follow rising y.
 
-use super::bytes::Bytes;
-use super::text;
+use std::collections::HashMap;
+
+use super::bytes::{Bytes, Opening};
+use super::numbers::Numbers;
+use super::text::{self, Text};
+use super::unordered::Unordered;
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
@@ -18,73 +22,82 @@ const UNEVEN: f64 = 0.05;
 /// Grid points for each point in the file; with fewer points in the file it is not a grid.
 const SPARSEST: usize = 2;
 
+/// Why points form no map.
+pub(super) enum NoGrid {
+    /// They lie otherwise.
+    Otherwise(String),
+    /// They cannot be read, or not be sorted.
+    Unread(FileError),
+}
+
+impl From<FileError> for NoGrid {
+    fn from(error: FileError) -> Self {
+        NoGrid::Unread(error)
+    }
+}
+
 /// Reads a file of points.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
-    let (columns, remarks) = text::read_columns(&file)?;
-    if columns.columns != 3 {
-        return Err(FileError::NotAGrid {
-            what: format!(
-                "its lines have {} numbers; x, y and z are expected",
-                columns.columns
-            ),
-        });
+    let opening = file.opening();
+    let (text, numbers) = text::open(file)?;
+    let map = match numbers.columns {
+        3 => gridded(&text, &numbers, opening),
+        columns => Err(NoGrid::Otherwise(format!(
+            "its lines have {columns} numbers; x, y and z are expected"
+        ))),
+    };
+    map.map_err(|error| match error {
+        NoGrid::Otherwise(what) => FileError::NotAGrid { what },
+        NoGrid::Unread(error) => error,
+    })
+}
+
+/// The map that the lines of a text form if they are points with at least two a side; `None` for other numbers.
+///
+/// # Errors
+/// The points cannot be read, or not be sorted.
+pub(super) fn as_grid(
+    text: &Text,
+    numbers: &Matrix,
+    opening: Opening,
+) -> Result<Option<Map>, FileError> {
+    if numbers.columns != 3 || numbers.rows < 4 {
+        return Ok(None);
     }
-    let map = gridded(&columns, remarks.lateral_unit);
-    let map = map.map_err(|what| FileError::NotAGrid { what })?;
-    file.expect_held([map.rows, map.columns])?;
-    Ok(map.into())
+    match gridded(text, numbers, opening) {
+        Ok(map) => Ok(Some(map).filter(|map| map.rows > 1 && map.columns > 1)),
+        Err(NoGrid::Otherwise(_)) => Ok(None),
+        Err(NoGrid::Unread(error)) => Err(error),
+    }
 }
 
-/// Whether a matrix has as many columns and rows as points that form a map.
-pub(super) fn may_be_grid(columns: &Matrix) -> bool {
-    columns.columns == 3 && columns.rows >= 4
-}
-
-/// The map that the points form if it has at least two points a side; `None` for three ordinary
-/// columns.
-pub(super) fn as_grid(columns: &Matrix, lateral_unit: Option<f64>) -> Option<Matrix> {
-    gridded(columns, lateral_unit)
-        .ok()
-        .filter(|map| map.rows > 1 && map.columns > 1)
-}
-
-/// Arranges points on a grid.
-fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String> {
-    let axes = ["x", "y"].iter().enumerate().map(|(axis, name)| {
-        let coordinates: Vec<f64> = points
-            .values
-            .iter()
-            .skip(axis)
-            .step_by(3)
-            .copied()
-            .collect();
-        Axis::from_coordinates(coordinates).map_err(|what| format!("{name}: {what}"))
-    });
-    let axes: Vec<Axis> = axes.collect::<Result<_, _>>()?;
-    let (x, y) = (&axes[0], &axes[1]);
+/// Arranges points on a grid; at a glance they are taken for a square.
+fn gridded(text: &Text, points: &Matrix, opening: Opening) -> Result<Map, NoGrid> {
+    if opening == Opening::Glance {
+        let columns = points.rows.isqrt().max(1);
+        let shape = [points.rows.div_ceil(columns), columns];
+        return Ok(Matrix::new(Numbers::Held(Vec::new()), shape));
+    }
+    let [x, y] = axes(text, points)?;
     let places = x.count.checked_mul(y.count);
-    let Some(places) =
-        places.filter(|places| *places <= MOST_POINTS && *places <= points.rows * SPARSEST)
-    else {
-        return Err(format!(
+    let is_map = |places: usize| places <= MOST_POINTS && places <= points.rows * SPARSEST;
+    if !places.is_some_and(is_map) {
+        return Err(NoGrid::Otherwise(format!(
             "its {} points have {} different x and {} different y",
             points.rows, x.count, y.count
-        ));
-    };
-    let mut values = vec![f64::NAN; places];
-    let mut taken = vec![false; places];
-    for (row, point) in points.values.chunks_exact(3).enumerate() {
-        let place = y.index(point[1]) * x.count + x.index(point[0]);
-        if std::mem::replace(&mut taken[place], true) {
-            return Err(format!(
-                "row {} lies at x = {}, y = {}, as a row above",
-                row + 1,
-                point[0],
-                point[1]
-            ));
-        }
-        values[place] = point[2];
+        )));
     }
+    let shape = [y.count, x.count];
+    let mut unordered = Unordered::new(shape, opening)?;
+    text.points(points, &mut |row, [at_x, at_y, z]| {
+        let place = y.index(at_y) * x.count + x.index(at_x);
+        if unordered.put(place, z)? {
+            return Ok(());
+        }
+        Err(NoGrid::Otherwise(format!(
+            "row {row} lies at x = {at_x}, y = {at_y}, as a row above"
+        )))
+    })?;
     // Pixels of a single line are taken as square.
     let steps = [x.step, y.step];
     let step = |axis: usize| {
@@ -95,15 +108,93 @@ fn gridded(points: &Matrix, lateral_unit: Option<f64>) -> Result<Matrix, String>
         }
     };
     let sides = [step(0) * x.count as f64, step(1) * y.count as f64];
-    let size = (sides[0] > 0.0).then(|| match lateral_unit {
+    let size = (sides[0] > 0.0).then(|| match text.lateral_unit() {
         Some(unit) => Size::Metres(sides.map(|side| side * unit)),
         None => Size::LikeHeights(sides),
     });
     Ok(Matrix {
         size,
         unit: points.unit,
-        ..Matrix::new(values, [y.count, x.count])
+        ..Matrix::new(unordered.numbers(), shape)
     })
+}
+
+/// The axes on which points lie.
+fn axes(text: &Text, points: &Matrix) -> Result<[Axis; 2], NoGrid> {
+    let mut ranges = [Coordinates::new(), Coordinates::new()];
+    text.points(points, &mut |row, point| {
+        for (range, coordinate) in ranges.iter_mut().zip(point) {
+            range.include(row, coordinate);
+        }
+        Ok(())
+    })?;
+    text.points(points, &mut |_, point| {
+        for (range, coordinate) in ranges.iter_mut().zip(point) {
+            range.take(coordinate);
+        }
+        Ok(())
+    })?;
+    let [x, y] = ranges;
+    let named = |range: Coordinates, name: &str| {
+        let axis = range.axis();
+        axis.map_err(|what| NoGrid::Otherwise(format!("{name}: {what}")))
+    };
+    Ok([named(x, "x")?, named(y, "y")?])
+}
+
+/// Coordinates of which many are equal but for rounding, so that few are kept.
+struct Coordinates {
+    least: f64,
+    greatest: f64,
+    /// The first row without one.
+    missing: Option<usize>,
+    /// The least and the greatest of those in each part of the range that is as wide as equal ones are apart.
+    parts: HashMap<u64, [f64; 2]>,
+}
+
+impl Coordinates {
+    fn new() -> Self {
+        Coordinates {
+            least: f64::INFINITY,
+            greatest: f64::NEG_INFINITY,
+            missing: None,
+            parts: HashMap::new(),
+        }
+    }
+
+    /// Extends the range.
+    fn include(&mut self, row: usize, coordinate: f64) {
+        if coordinate.is_finite() {
+            self.least = self.least.min(coordinate);
+            self.greatest = self.greatest.max(coordinate);
+        } else if self.missing.is_none() {
+            self.missing = Some(row);
+        }
+    }
+
+    /// Difference up to which coordinates are equal.
+    fn same(&self) -> f64 {
+        SAME * (self.greatest - self.least)
+    }
+
+    /// Keeps a coordinate, once the range is known.
+    fn take(&mut self, coordinate: f64) {
+        let part = ((coordinate - self.least) / self.same()) as u64;
+        let ends = self.parts.entry(part).or_insert([coordinate; 2]);
+        *ends = [ends[0].min(coordinate), ends[1].max(coordinate)];
+    }
+
+    /// Their axis, if they are evenly spaced.
+    fn axis(self) -> Result<Axis, String> {
+        if let Some(row) = self.missing {
+            return Err(format!("row {row} has none"));
+        }
+        let same = self.same();
+        let mut kept: Vec<f64> = self.parts.into_values().flatten().collect();
+        kept.sort_by(f64::total_cmp);
+        kept.dedup_by(|next, kept| *next - *kept <= same);
+        Axis::of(&kept)
+    }
 }
 
 /// Evenly spaced coordinates.
@@ -115,16 +206,11 @@ struct Axis {
 }
 
 impl Axis {
-    fn from_coordinates(mut coordinates: Vec<f64>) -> Result<Axis, String> {
-        if let Some(row) = coordinates.iter().position(|value| !value.is_finite()) {
-            return Err(format!("row {} has none", row + 1));
-        }
-        coordinates.sort_by(f64::total_cmp);
+    /// The axis of rising coordinates.
+    fn of(coordinates: &[f64]) -> Result<Axis, String> {
         let (Some(&least), Some(&greatest)) = (coordinates.first(), coordinates.last()) else {
             return Err("there is none".to_owned());
         };
-        let same = SAME * (greatest - least);
-        coordinates.dedup_by(|next, kept| *next - *kept <= same);
         let count = coordinates.len();
         if count == 1 {
             return Ok(Axis {

@@ -40,8 +40,12 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
         "the device fails amid a run; without a thread pool the whole machine is out of threads",
     ),
     (
-        "FileError::Whole",
-        "takes several processes: tests/solver/ranks_files.rs has them",
+        "FileError::LongLine",
+        "takes several processes and a line of 512 MiB: a test in src/surface/formats/lines.rs has it, with a lesser limit",
+    ),
+    (
+        "FileError::Sorting",
+        "takes several processes and a temporary folder that cannot be written",
     ),
     (
         "Failure::KilledRank",
