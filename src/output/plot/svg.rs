@@ -9,6 +9,9 @@ use super::raster::DASHES;
 /// From the middle of a line of text to its baseline, in heights of the line.
 const BASELINE: f64 = 0.3;
 
+/// Pixels by which the letters of a page may reach above a line of the PNG's.
+const OVERHANG: u32 = 4;
+
 /// Pixels in a millimetre of a figure in a file of its own: a large panel is 156 mm wide, two small ones are 170 mm,
 /// the width of a page, and text has 7 to 9 points.
 const PIXELS_PER_MILLIMETRE: f64 = 6.2;
@@ -56,14 +59,16 @@ impl Figure {
         is_own.then(|| format!("#{red:02x}{green:02x}{blue:02x}"))
     }
 
-    /// The figure as an `svg` element that is named `label`.
+    /// The figure as an `svg` element that is named `label`, without the margins above and below: a page has its own.
     pub(in crate::output) fn svg(&self, label: &str) -> Markup {
         let Drawing {
             size: [width, height],
             marks,
         } = Drawing::new(self);
+        let top = self.style.margin.saturating_sub(OVERHANG);
+        let height = height - top - self.style.margin;
         html! {
-            svg viewBox={ "0 0 " (width) " " (height) } role="img" aria-label=(label) {
+            svg viewBox={ "0 " (top) " " (width) " " (height) } role="img" aria-label=(label) {
                 @for mark in &marks { (self.element(mark)) }
             }
         }
