@@ -29,6 +29,8 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let slope = plan.outline.moments.rms_slope();
     let modulus = scene.solid.contact_modulus;
     let mut found = Vec::new();
+    // Of a liquid it is twice the surface tension, which `[capillary]` warns of.
+    let work = work.filter(|_| scene.capillary.is_none());
     if let Some(work) = work.filter(|work| *work > WORK) {
         found.push(format!(
             "a work of adhesion of {} is more than solids have: was it meant in mJ/m^2?",
