@@ -876,6 +876,12 @@ fn implausible_quantities_are_warned_of_with_the_likely_slip() {
     let (_, behind) = adhesion.split_once("[loading]").expect("a path");
     let damp = format!("{before}[capillary]\nhumidity = 0.9\n[loading]{behind}");
     assert!(!said_of(&damp, &[]).contains("was it meant"));
+    // The range of a meniscus is no key.
+    let told = said_of(&damp, &["capillary.contact_angle=89.9"]);
+    assert!(
+        told.contains("of the cohesive zone") && !told.contains("range = \"auto\""),
+        "{told}"
+    );
     for (set, warning) in [
         (
             "capillary.temperature=25",
