@@ -65,7 +65,7 @@ dimensions! {
     /// K.
     Temperature: "K", "a temperature in K", "\"298.15 K\"";
     /// m^3/mol.
-    MolarVolume: "m^3/mol", "a molar volume in m^3/mol", "\"18e-6 m^3/mol\"";
+    MolarVolume: "m^3/mol", "a molar volume in m^3/mol", "\"18 cm^3/mol\"";
     /// m/s.
     Speed: "m/s", "a speed in m/s", "\"1 um/s\"";
     /// W/(m K), or S/m.
@@ -270,6 +270,8 @@ const PLAIN: &[(&str, Dimension, i32, f64)] = &[
     ("K", Dimension::Temperature, 0, 1.0),
     ("m^3/mol", Dimension::MolarVolume, 0, 1.0),
     ("m³/mol", Dimension::MolarVolume, 0, 1.0),
+    ("cm^3/mol", Dimension::MolarVolume, -6, 1.0),
+    ("cm³/mol", Dimension::MolarVolume, -6, 1.0),
     ("m^3/(N m)", Dimension::SpecificWear, 0, 1.0),
     ("m³/(N m)", Dimension::SpecificWear, 0, 1.0),
     ("mm^3/(N m)", Dimension::SpecificWear, -9, 1.0),
@@ -580,6 +582,8 @@ mod tests {
             ("298.15 K", Temperature, 298.15),
             ("18e-6 m^3/mol", MolarVolume, 18e-6),
             ("18e-6 m³/mol", MolarVolume, 18e-6),
+            ("18 cm^3/mol", MolarVolume, 18e-6),
+            ("18 cm³ / mol", MolarVolume, 18e-6),
             ("3 um/s", Speed, 3e-6),
             ("3 m/s", Speed, 3.0),
             ("3 mW/(m K)", Conductivity, 3e-3),

@@ -177,11 +177,18 @@ fn physics(plan: &Plan) -> Vec<String> {
     if let Law::MaugisDugdale(law) = plan.law
         && law.taper > 0.0
     {
+        let [reach, range] =
+            [law.range + 0.5 * law.taper, law.range].map(|gap| format_si(gap, "m"));
+        let effect = if reach == range {
+            "too short beside the range to change anything".to_owned()
+        } else {
+            format!(
+                "the attraction ends at a gap of {reach} in place of {range}, so jump-in comes earlier"
+            )
+        };
         lines.push(format!(
-            "taper         {}: the attraction ends at a gap of {} in place of {}, so jump-in comes earlier",
-            format_si(law.taper, "m"),
-            format_si(law.range + 0.5 * law.taper, "m"),
-            format_si(law.range, "m"),
+            "taper         {}: {effect}",
+            format_si(law.taper, "m")
         ));
     }
     lines.push(match regime.tabor {

@@ -30,6 +30,9 @@ pub(super) const EXAMPLE: (&str, &str) = (
     "{ law = \"exponential\", work_of_adhesion = 1e-4, range = 0.02 }",
 );
 
+/// Largest work of adhesion, J/m^2: clean metals have a few.
+const WORK: f64 = 10.0;
+
 /// Sum of the net tension over the points under tension, N: at zero load the pressure of the others balances it.
 pub(super) const ATTRACTION: Column = Column::new("attractive_force", "N", 5);
 
@@ -69,7 +72,14 @@ impl Hooks for Adhesion {
     }
 
     fn warnings(&self, plan: &Plan) -> Vec<String> {
-        warnings_of_pixels(plan)
+        let work = plan.law.work_of_adhesion();
+        let strong = (work > WORK).then(|| {
+            format!(
+                "a work of adhesion of {} is more than solids have: was it meant in mJ/m^2?",
+                format_si(work, "J/m^2")
+            )
+        });
+        strong.into_iter().chain(warnings_of_pixels(plan)).collect()
     }
 
     fn columns(&self) -> &'static [Column] {
@@ -110,7 +120,12 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
         "a pixel is {chi:.2} of the cohesive zone (chi = w dx/(E* range^2)), {:.2} pixels across it",
         regime.zone_pixels
     );
-    let remedy = "take more points or a longer range (range = \"auto\" finds the shortest that the grid resolves)";
+    let remedy = if plan.scene.capillary.is_some() {
+        // The range is the height of the meniscus.
+        "take more points"
+    } else {
+        "take more points or a longer range (range = \"auto\" finds the shortest that the grid resolves)"
+    };
     let beyond = "10 % cannot be reached on this grid";
     let text = match plan.law {
         Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LOST => Some(format!(

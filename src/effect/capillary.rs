@@ -12,6 +12,13 @@ use crate::units::format_si;
 /// Temperatures at which a liquid condenses from air, K.
 const TEMPERATURES: RangeInclusive<f64> = 200.0..=700.0;
 
+/// Largest surface tension, N/m: molten metals have 2.
+const SURFACE_TENSION: f64 = 5.0;
+/// Largest molar volume of a liquid, m^3/mol: silicone oils have some 0.03.
+const MOLAR_VOLUME: f64 = 0.1;
+/// Side of a map, m, from which on a scene may be in reduced units.
+const REDUCED: f64 = 0.01;
+
 /// A liquid bridge in each narrow gap.
 pub(super) struct Capillary;
 
@@ -77,8 +84,30 @@ impl Hooks for Capillary {
                 format_si(temperature, "K")
             )
         });
+        let grid = plan.outline.grid;
+        let liquid = plan.scene.capillary.as_ref();
+        let liquid = liquid.filter(|_| grid.lx.max(grid.ly) < REDUCED);
+        let tense = liquid
+            .map(|liquid| liquid.surface_tension)
+            .filter(|tension| *tension > SURFACE_TENSION);
+        let tense = tense.map(|tension| {
+            format!(
+                "a surface tension of {} is more than liquids have: was it meant in mN/m?",
+                format_si(tension, "N/m")
+            )
+        });
+        let large = liquid
+            .map(|liquid| liquid.molar_volume)
+            .filter(|volume| *volume > MOLAR_VOLUME);
+        let large = large.map(|volume| {
+            format!(
+                "a molar volume of {volume} m^3/mol is more than liquids have: was it meant in cm^3/mol?"
+            )
+        });
         dry.into_iter()
             .chain(odd)
+            .chain(tense)
+            .chain(large)
             .chain(warnings_of_pixels(plan))
             .collect()
     }

@@ -95,7 +95,7 @@ impl Hooks for Hardness {
     fn carry(&self, setup: &Setup, checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
         let hardness = setup.scene.solid.hardness?;
         Some(Box::new(Indentation {
-            depths: checkpoint.field(DEPTHS).map(<[f64]>::to_vec),
+            depths: checkpoint.shared(DEPTHS),
             share: setup.problem.share.clone(),
             unit: hardness * setup.problem.scales.length * setup.problem.grid.pixel_area(),
         }))
@@ -105,8 +105,8 @@ impl Hooks for Hardness {
 /// Depths by which plastic indentation has lowered the heights, reduced, one a solved point.
 #[derive(Clone)]
 struct Indentation {
-    /// `None` until the solid yields anywhere.
-    depths: Option<Vec<f64>>,
+    /// `None` until the solid yields anywhere. Copies share them until a step changes them.
+    depths: Option<Arc<Vec<f64>>>,
     /// The points that this process holds.
     share: Share,
     /// Hardness times the volume of a unit of depth over a pixel, J.
@@ -121,14 +121,14 @@ impl Carry for Indentation {
     fn checkpoint_fields(&self) -> Vec<CheckpointField> {
         let depths = self.depths.as_ref().map(|depths| CheckpointField {
             name: DEPTHS.to_owned(),
-            values: Arc::new(depths.clone()),
+            values: Arc::clone(depths),
         });
         depths.into_iter().collect()
     }
 
     fn restore(&self, solver: &mut ContactSolver) {
         if self.depths.is_some() || solver.plastic_depths().is_some() {
-            solver.set_plastic_depths(self.depths.as_deref());
+            solver.set_plastic_depths(self.depths.as_ref().map(|depths| depths.as_slice()));
         }
     }
 
@@ -154,7 +154,10 @@ impl Carry for Indentation {
         let shape = problem.shape;
         let yields = problem.on_surface(&gap).any(|gap| gap < 0.0);
         if share.any(yields) {
-            let depths = self.depths.get_or_insert_with(|| vec![0.0; share.len()]);
+            let depths = self
+                .depths
+                .get_or_insert_with(|| Arc::new(vec![0.0; share.len()]));
+            let depths = Arc::make_mut(depths);
             let lines = gap.chunks_exact_mut(shape.points[0]);
             let lines = lines.take(share.surface_rows().len());
             for (row, line) in lines.enumerate() {
@@ -165,7 +168,7 @@ impl Carry for Indentation {
                     }
                 }
             }
-            solver.set_plastic_depths(self.depths.as_deref());
+            solver.set_plastic_depths(self.depths.as_ref().map(|depths| depths.as_slice()));
             solver.set_gap(&gap);
         }
         Ok(())

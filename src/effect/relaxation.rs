@@ -101,12 +101,12 @@ impl Hooks for Relaxation {
     fn carry(&self, setup: &Setup, checkpoint: &Checkpoint) -> Option<Box<dyn Carry>> {
         let solid = &setup.scene.solid;
         let mut history = History::at_rest(solid, setup.problem.share.len());
-        if let Some(values) = checkpoint.field(DISPLACEMENT) {
-            history.displacement.copy_from_slice(values);
+        if let Some(values) = checkpoint.shared(DISPLACEMENT) {
+            history.displacement = values;
         }
         for (branch, spring) in history.springs.iter_mut().enumerate() {
-            if let Some(values) = checkpoint.field(&spring_name(branch + 1)) {
-                spring.copy_from_slice(values);
+            if let Some(values) = checkpoint.shared(&spring_name(branch + 1)) {
+                *spring = values;
             }
         }
         Some(Box::new(history))
@@ -136,13 +136,13 @@ fn effective_modulus(solid: &SolidScene, duration: f64) -> f64 {
 
 /// The state of a viscoelastic solid: its displacement and that of each branch's spring.
 ///
-/// Displacements are reduced and hold one value a solved point.
+/// Displacements are reduced and hold one value a solved point. Copies share them until a step changes one.
 #[derive(Clone)]
 struct History {
     /// Displacement at the end of the last step.
-    displacement: Vec<f64>,
+    displacement: Arc<Vec<f64>>,
     /// Displacement of the spring of each branch, in the order of the scene.
-    springs: Vec<Vec<f64>>,
+    springs: Vec<Arc<Vec<f64>>>,
     /// Offset of the surface by its history in the present step.
     offset: Vec<f64>,
 }
@@ -151,8 +151,12 @@ impl History {
     /// A solid at rest.
     fn at_rest(solid: &SolidScene, points: usize) -> History {
         History {
-            displacement: vec![0.0; points],
-            springs: vec![vec![0.0; points]; solid.relaxation.len()],
+            displacement: Arc::new(vec![0.0; points]),
+            springs: solid
+                .relaxation
+                .iter()
+                .map(|_| Arc::new(vec![0.0; points]))
+                .collect(),
             offset: Vec::new(),
         }
     }
@@ -165,7 +169,7 @@ impl History {
         for (branch, spring) in self.branches(solid) {
             let (alpha, beta) = branch_coefficients(duration / branch.time);
             let weight = branch.modulus / modulus;
-            for ((value, m), u) in offset.iter_mut().zip(spring).zip(&self.displacement) {
+            for ((value, m), u) in offset.iter_mut().zip(spring).zip(&*self.displacement) {
                 *value += weight * (alpha * m - beta * u);
             }
         }
@@ -176,20 +180,21 @@ impl History {
     fn advance(&mut self, solid: &SolidScene, duration: f64, displacement: Vec<f64>) {
         for (branch, spring) in solid.relaxation.iter().zip(&mut self.springs) {
             let (alpha, beta) = branch_coefficients(duration / branch.time);
-            let steps = displacement.iter().zip(&self.displacement);
-            for (m, (new, old)) in spring.iter_mut().zip(steps) {
+            let steps = displacement.iter().zip(&*self.displacement);
+            for (m, (new, old)) in Arc::make_mut(spring).iter_mut().zip(steps) {
                 *m = alpha * *m + beta * (new - old);
             }
         }
-        self.displacement = displacement;
+        self.displacement = Arc::new(displacement);
     }
 
     /// The branches with their springs.
     fn branches<'a>(
         &'a self,
         solid: &'a SolidScene,
-    ) -> impl Iterator<Item = (&'a RelaxationScene, &'a Vec<f64>)> {
-        solid.relaxation.iter().zip(&self.springs)
+    ) -> impl Iterator<Item = (&'a RelaxationScene, &'a [f64])> {
+        let springs = self.springs.iter().map(|spring| spring.as_slice());
+        solid.relaxation.iter().zip(springs)
     }
 }
 
@@ -203,12 +208,12 @@ impl Carry for History {
         let mut fields: Vec<CheckpointField> = springs
             .map(|(branch, values)| CheckpointField {
                 name: spring_name(branch + 1),
-                values: Arc::new(values.clone()),
+                values: Arc::clone(values),
             })
             .collect();
         fields.push(CheckpointField {
             name: DISPLACEMENT.to_owned(),
-            values: Arc::new(self.displacement.clone()),
+            values: Arc::clone(&self.displacement),
         });
         fields
     }

@@ -251,7 +251,10 @@ impl Observer for Following<'_> {
     type Error = RankError;
 
     fn step(&mut self, step: FinishedStep) -> Result<(), RankError> {
-        self.evaluation = step.evaluation;
+        // Where the last step has no fields, the leader writes those of the step before it.
+        if step.evaluation.is_some() || !step.is_last {
+            self.evaluation = step.evaluation;
+        }
         let kept = self.kept(&Checkpoint::default());
         if !self.keeps_fields() {
             self.evaluation = None;

@@ -177,8 +177,12 @@ impl<'a> RunRecorder<'a> {
         let output = &self.setup.scene.output;
         if std::mem::take(&mut self.stale) {
             let only_last = output.steps == StepChoice::Last;
-            self.folder
-                .remove_steps(|step| only_last || step >= number)?;
+            // A last step without fields leaves those of the step before it, which the run that is resumed has written.
+            let has_none = step.is_last && step.evaluation.is_none();
+            self.folder.remove_steps(|other| {
+                let stays = has_none && other + 1 == number;
+                other >= number || only_last && !stays
+            })?;
         }
         for text in step_warnings(self.setup, &step, &self.warnings) {
             self.warn(text);

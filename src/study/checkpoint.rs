@@ -57,7 +57,7 @@ impl Checkpoint {
     }
 
     /// The same without a copy, for who keeps them.
-    pub(super) fn shared(&self, name: &str) -> Option<Arc<Vec<f64>>> {
+    pub(crate) fn shared(&self, name: &str) -> Option<Arc<Vec<f64>>> {
         let found = self.fields.iter().find(|field| field.name == name);
         found.map(|field| Arc::clone(&field.values))
     }

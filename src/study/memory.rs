@@ -123,14 +123,14 @@ impl Memory {
         // Heights of a pad and the first gap on their way to the backend.
         let starting = field.max(coarse_start(cost, points, solver_here, ranks));
 
-        // A step is solved and evaluated, then its result is written, before which the last one goes, and its state
-        // read.
+        // A step is solved and evaluated, then its result is written, before which the last one goes, and its gap
+        // read; the checkpoint shares the history.
         let first = alone + first_start + result * cost.host.results;
         let step = iterating.max(idle + evaluating) + before + results;
         // Rows of others on their way through the first rank.
         let coming = if ranks > 1 { 2 * ROUND.min(field) } else { 0 };
         let writing = writing(scene, points, grid.len() as u64) + coming;
-        let ended = idle + points_before + writing.max(results.max(result) + state + coming);
+        let ended = idle + points_before + writing.max(results.max(result) + field + coming);
         let walking = first.max(step).max(ended).max(idle + starting);
         // A load between two steps is solved beside the states of both and the result of the second; its own state
         // is read beside its own result.

@@ -3,8 +3,6 @@
 use super::plan::Plan;
 use crate::units::format_si;
 
-/// Largest work of adhesion, J/m^2: clean metals have a few.
-const WORK: f64 = 10.0;
 /// Largest side of a map, m.
 const SIDE: f64 = 10.0;
 /// Radius of a tip on a cantilever, m, which no probe comes near to.
@@ -20,7 +18,6 @@ const SLOPE: f64 = 10.0;
 pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let scene = &plan.scene;
     let grid = plan.outline.grid;
-    let work = plan.law.is_adhesive().then(|| plan.law.work_of_adhesion());
     let side = grid.lx.max(grid.ly);
     let tip = plan
         .outline
@@ -29,12 +26,6 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let slope = plan.outline.moments.rms_slope();
     let modulus = scene.solid.contact_modulus;
     let mut found = Vec::new();
-    if let Some(work) = work.filter(|work| *work > WORK) {
-        found.push(format!(
-            "a work of adhesion of {} is more than solids have: was it meant in mJ/m^2?",
-            format_si(work, "J/m^2")
-        ));
-    }
     if modulus < MODULUS && side < REDUCED {
         found.push(format!(
             "a contact modulus of {} is less than solids have: was it meant in MPa or GPa?",

@@ -127,7 +127,15 @@ impl AxisTable {
         };
         let texts: Vec<String> = (0..count).map(|index| text(at(index))).collect();
         if let Some(pair) = texts.windows(2).find(|pair| pair[0] == pair[1]) {
-            return Err(format!("{} comes twice; take a smaller count", pair[0]));
+            let between = if whole {
+                ", or write from and to with a decimal point, between which values need not be whole"
+            } else {
+                ""
+            };
+            return Err(format!(
+                "{} comes twice; take a smaller count{between}",
+                pair[0]
+            ));
         }
         Ok(texts)
     }
@@ -266,7 +274,11 @@ mod tests {
                 "with a unit",
             ),
             ("key = \"k\"\nfrom = nan\nto = 1.0\ncount = 2", "finite"),
-            ("key = \"k\"\nfrom = 1\nto = 3\ncount = 5", "comes twice"),
+            ("key = \"k\"\nfrom = 1\nto = 3\ncount = 5", "decimal point"),
+            (
+                "key = \"k\"\nfrom = 1.0\nto = 1.0\ncount = 2",
+                "1.0 comes twice; take a smaller count",
+            ),
             ("keys = [\"a\", \"b\"]\nvalues = [[1]]", "list of 2"),
             (
                 "keys = [\"a\", \"b\"]\nfrom = 1\nto = 2\ncount = 2",

@@ -52,6 +52,16 @@ pub enum SweepError {
         /// Where it is given besides.
         place: &'static str,
     },
+    /// A key whose value an axis replaces, with all that it lies in.
+    #[error("{}: {key} has no effect: {axis}, the key of an axis, replaces all that it lies in; leave one of them out, or put that axis first", path.display())]
+    Replaced {
+        /// The study.
+        path: PathBuf,
+        /// The key.
+        key: String,
+        /// The key of the axis.
+        axis: String,
+    },
     /// A key or value that the scene does not take.
     #[error("{}: {reason}", path.display())]
     Scene {

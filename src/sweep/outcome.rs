@@ -1,5 +1,7 @@
 //! What is kept of a case.
 
+use std::str::FromStr;
+
 use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
@@ -192,10 +194,31 @@ fn values(case: &Case, scene: Option<&Scene>) -> Vec<String> {
 
 /// A value as it is written, in SI where it is a quantity: the resolved scene has another key in its place.
 fn written(text: &str) -> String {
-    let text = text.trim_matches('"');
-    match parse_any_quantity(text) {
+    // A text is itself; anything else stays as TOML has it.
+    let text = match toml::Value::from_str(text) {
+        Ok(toml::Value::String(text)) => text,
+        _ => text.to_owned(),
+    };
+    match parse_any_quantity(&text) {
         Some((radians, Dimension::Angle)) => number_cell(radians.to_degrees()),
         Some((value, _)) => number_cell(value),
-        None => text.to_owned(),
+        None => text,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// TOML has several ways to quote; none of them is part of the text.
+    #[test]
+    fn a_text_is_written_without_its_quotes() {
+        for text in ["plain", "c\"d", "\"quoted\"", "e\nf", "it's", "a,b"] {
+            let value = toml::Value::String(text.to_owned()).to_string();
+            assert_eq!(written(&value), text, "{value}");
+        }
+        assert_eq!(written("\"25 um\""), "2.5e-5");
+        assert_eq!(written("[1, 2]"), "[1, 2]");
+        assert_eq!(written("true"), "true");
     }
 }

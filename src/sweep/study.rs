@@ -140,9 +140,21 @@ impl Study {
         Ok(study)
     }
 
-    /// Refuses a key that is given twice; the first `own` settings are those of the file.
+    /// Refuses a key that is given twice, or that a later axis replaces; the first `own` settings are those of the file.
     fn check_keys(&self, own: usize) -> Result<(), SweepError> {
         let keys: Vec<&str> = self.keys().collect();
+        for (index, axis) in keys.iter().enumerate() {
+            let set = self.set.iter().map(|(key, _)| key.as_str());
+            let within = format!("{axis}.");
+            let mut before = set.chain(keys[..index].iter().copied());
+            if let Some(key) = before.find(|key| key.starts_with(&within)) {
+                return Err(SweepError::Replaced {
+                    path: self.path.clone(),
+                    key: key.to_owned(),
+                    axis: (*axis).to_owned(),
+                });
+            }
+        }
         for (index, key) in keys.iter().enumerate() {
             let set = self.set.iter().position(|(set, _)| set == key);
             let place = match set {

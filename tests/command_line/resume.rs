@@ -370,6 +370,24 @@ fn steps_without_fields_are_not_taken_for_lost() {
     );
 }
 
+/// No gap is smaller than none: the third step has no solution, and the fields that are written are those of the second.
+/// A run that is resumed there, to the same end, does not lose them.
+fn fields_before_a_step_without_any_stay() {
+    let folder = scene(
+        "[grid]\npoints = 16\nsize = 1.0\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"wavy\"\namplitude = 0.01\nwavelength = 1.0\n[loading]\ncontrol = \"approach\"\npath = [0.001, 0.005, 0.02]\n[output]\nfields = [\"gap\"]\nimages = [\"gap\"]\n",
+    );
+    let folder = folder.path();
+    let run = |extra: &[&str]| {
+        let call = [&["run", "scene.toml", "--out", "out"], extra].concat();
+        let output = tabor(folder, &call);
+        assert_eq!(status(&output), 3, "{}", errors(&output));
+        ["fields/step_0002_gap.npy", "images/step_0002_gap.png"]
+            .map(|name| fs::read(folder.join("out").join(name)).expect(name))
+    };
+    let whole = run(&[]);
+    assert!(run(&["--resume"]) == whole);
+}
+
 #[cfg(unix)]
 fn a_folder_that_vanishes_ends_the_run() {
     let folder = scene(&long());
@@ -524,6 +542,7 @@ tests![
     a_height_map_that_changed_is_another_scene,
     an_adhesion_map_that_changed_is_another_scene,
     steps_without_fields_are_not_taken_for_lost,
+    fields_before_a_step_without_any_stay,
     #[cfg(unix)]
     a_folder_that_vanishes_ends_the_run,
     a_file_where_a_folder_should_be_ends_the_run,

@@ -875,13 +875,31 @@ fn implausible_quantities_are_warned_of_with_the_likely_slip() {
     let (before, adhesion) = LOOP.split_once("[adhesion]").expect("adhesion");
     let (_, behind) = adhesion.split_once("[loading]").expect("a path");
     let damp = format!("{before}[capillary]\nhumidity = 0.9\n[loading]{behind}");
-    let told = said_of(&damp, &["capillary.temperature=25"]);
+    assert!(!said_of(&damp, &[]).contains("was it meant"));
+    // The range of a meniscus is no key.
+    let told = said_of(&damp, &["capillary.contact_angle=89.9"]);
     assert!(
-        told.contains(
-            "a temperature of 25 K at which a liquid condenses: was it meant in degrees Celsius?"
-        ),
+        told.contains("of the cohesive zone") && !told.contains("range = \"auto\""),
         "{told}"
     );
+    for (set, warning) in [
+        (
+            "capillary.temperature=25",
+            "a temperature of 25 K at which a liquid condenses: was it meant in degrees Celsius?",
+        ),
+        (
+            "capillary.surface_tension=72",
+            "a surface tension of 72 N/m is more than liquids have: was it meant in mN/m?",
+        ),
+        (
+            "capillary.molar_volume=18",
+            "a molar volume of 18 m^3/mol is more than liquids have: was it meant in cm^3/mol?",
+        ),
+    ] {
+        let told = said_of(&damp, &[set]);
+        assert_eq!(told.matches("was it meant").count(), 1, "{told}");
+        assert!(told.contains(warning), "{warning} is missing in {told}");
+    }
 }
 
 /// A punch with flat pillars has no curvature, so no Tabor number; what a model of it leaves out is said.

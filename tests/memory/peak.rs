@@ -181,6 +181,45 @@ fn a_whole_path_takes_what_is_stated_to_a_tenth() {
     }
 }
 
+/// A viscoelastic path that converges, of three branches, whose state a checkpoint holds after each step: no more than is
+/// stated, but for the allocator's slack.
+#[cfg(target_os = "linux")]
+fn a_viscoelastic_path_takes_no_more_than_is_stated() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let branches: String = ["1.0", "2.0", "3.0"]
+        .iter()
+        .map(|time| format!("[[solid.relaxation]]\nmodulus = \"50 MPa\"\ntime = {time}\n"))
+        .collect();
+    for (boundary, points, precision) in [
+        ("periodic", 1024, "double"),
+        ("free", 512, "double"),
+        ("free", 512, "single"),
+    ] {
+        let text = format!(
+            "[grid]\npoints = {points}\nsize = \"10 um\"\nboundary = \"{boundary}\"\n\
+             [solid]\ncontact_modulus = \"100 MPa\"\n{branches}\
+             [[surface]]\nkind = \"sphere\"\nradius = \"50 um\"\n\
+             [loading]\ncontrol = \"force\"\nstart = \"10 uN\"\n[[loading.ramp]]\nto = \"20 uN\"\nsteps = 2\nduration = 1.0\n\
+             [solver]\nbackend = \"cpu\"\nprecision = \"{precision}\"\ntolerance = 1e-3\n[output]\nimages = []\n"
+        );
+        let name = format!("{boundary}, {points} points, {precision} precision");
+        fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
+        let _ = fs::remove_dir_all(folder.path().join("scene"));
+        let output = tabor(folder.path(), &["run", "scene.toml", "--quiet"], None);
+        assert!(output.status.success(), "{name}: {}", errors(&output));
+        let summary = summary(&folder.path().join("scene"));
+        let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
+        let plan = plan(&text);
+        let stated = plan.memory(plan.place()).expect("a count").machine as f64;
+        let share = peak / stated;
+        println!(
+            "{share:.3} of {:.0} MiB: {name}",
+            stated / f64::from(1 << 20)
+        );
+        assert!((0.5..1.05).contains(&share), "{share} of the count: {name}");
+    }
+}
+
 fn what_does_not_fit_is_refused_with_the_largest_grid_that_does() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = ROUGH.replace("BOUNDARY", "periodic");
@@ -402,6 +441,8 @@ tests![
     a_run_takes_what_was_counted,
     #[cfg(target_os = "linux")]
     a_whole_path_takes_what_is_stated_to_a_tenth,
+    #[cfg(target_os = "linux")]
+    a_viscoelastic_path_takes_no_more_than_is_stated,
     what_does_not_fit_is_refused_with_the_largest_grid_that_does,
     #[cfg(target_os = "linux")]
     a_limited_address_space_is_no_abort,

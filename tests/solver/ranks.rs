@@ -514,6 +514,27 @@ fn the_folder_of_a_run() {
     assert_eq!(files(&at("cut")), one);
 }
 
+/// A path that ends in separated surfaces, without fields: those of the step before are written, of all ranks, and drawn
+/// too.
+fn fields_of_the_last_step_in_contact() {
+    let loading = "[loading]\ncontrol = \"pressure\"\npath = [2e5, 0.0, -1e9]\n[output]\nfields = [\"gap\"]\nimages = [\"gap\"]\n";
+    let below = format!("{}{loading}", adhesion("maugis-dugdale"));
+    let scene = scene([40, 24], "periodic", &below, ROUGH);
+    let place = tempfile::tempdir().expect("a temporary folder");
+    let at = |name: &str| place.path().join(name);
+    let options = RunOptions::new().threads(1).device(Device::cpu());
+    run_with(scene.clone(), &at("one"), &options, &mut ()).expect("it is solved");
+    for end in run_over(&scene, &at("three"), &options, 3, usize::MAX) {
+        let end = end.expect("all ranks");
+        assert_eq!((end.rows.len(), end.status), (3, RunStatus::Finished));
+    }
+    assert_eq!(files(&at("three")), files(&at("one")));
+    let drawn = |name: &str| {
+        fs::read(at(name).join("images/step_0002_gap.png")).expect("a picture of step 2")
+    };
+    assert!(drawn("three") == drawn("one"));
+}
+
 /// What one rank cannot do is told once, and ends the others: a folder that is no folder, a graphics processor, which
 /// no rank takes, and a grid that no memory holds.
 fn what_a_rank_refuses() {
@@ -556,6 +577,7 @@ fn what_a_rank_refuses() {
 
 tests![
     the_folder_of_a_run,
+    fields_of_the_last_step_in_contact,
     what_a_rank_refuses,
     periodic_laws_and_controls,
     free_spheres,

@@ -113,6 +113,7 @@ const CALLS: &[BadCall] = &[
     call(&["sweep", "no_axis.toml"], "SweepError::NoAxis", "no_axis.toml: there is no [[axis]]; add one with a key of the scene"),
     call(&["sweep", "empty_axis.toml"], "SweepError::Axis", "empty_axis.toml: axis 1 (surface.0.radius): has no values"),
     call(&["sweep", "study.toml", "--set", "surface.0.radius=1e-6"], "SweepError::Twice", "study.toml: surface.0.radius is the key of an axis, and given once more with --set"),
+    call(&["sweep", "study.toml", "--set", "surface.0.radius.unit=1"], "SweepError::Replaced", "study.toml: surface.0.radius.unit has no effect: surface.0.radius, the key of an axis, replaces all that it lies in"),
     call(&["sweep", "unknown_key.toml"], "SweepError::Scene", "unknown_key.toml: surface.0.radios=1: unknown key in a sphere [[surface]]; did you mean `radius`?"),
     call(&["sweep", "no_plot.toml"], "SweepError::Plot", "no_plot.toml: plot.y: pull is not a quantity of a run; these are: largest_contact_area_fraction, "),
     call(&["sweep", "no_case.toml"], "SweepError::Folders", "no_case.toml: folders: there is no case 3; the study has 2"),
