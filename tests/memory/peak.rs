@@ -91,14 +91,8 @@ fn a_run_takes_what_was_counted() {
                 &format!("max_iterations = 2\n{solver}"),
             );
         let name = format!("{boundary} {adhesion} {solver}");
-        fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
-        let _ = fs::remove_dir_all(folder.path().join("scene"));
         // Two iterations do not converge; all memory has been taken by then.
-        let output = tabor(folder.path(), &["run", "scene.toml", "--quiet"], None);
-        let message = errors(&output);
-        assert_eq!(output.status.code(), Some(3), "{name}: {message}");
-        let summary = summary(&folder.path().join("scene"));
-        let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
+        let peak = peak_of(folder.path(), &text, &name, 3);
         let plan = plan(&text);
         let counted = plan.memory(plan.place()).expect("a count").machine as f64;
         let share = peak / counted;
@@ -108,6 +102,18 @@ fn a_run_takes_what_was_counted() {
         );
         assert!((0.5..1.05).contains(&share), "{share} of the count: {name}");
     }
+}
+
+/// The largest resident set of a run of a scene, bytes, which ends with a status.
+#[cfg(target_os = "linux")]
+fn peak_of(folder: &Path, text: &str, name: &str, status: i32) -> f64 {
+    fs::write(folder.join("scene.toml"), text).expect("a scene");
+    let _ = fs::remove_dir_all(folder.join("scene"));
+    let output = tabor(folder, &["run", "scene.toml", "--quiet"], None);
+    let message = errors(&output);
+    assert_eq!(output.status.code(), Some(status), "{name}: {message}");
+    let summary = summary(&folder.join("scene"));
+    summary["peak_memory_bytes"].as_f64().expect("a peak")
 }
 
 /// Boundary, points, precision, law, loading, and whether the path has a step that is searched for a jump.
@@ -156,12 +162,7 @@ fn a_whole_path_takes_what_is_stated_to_a_tenth() {
              [solver]\nbackend = \"cpu\"\nprecision = \"{precision}\"\ntolerance = {tolerance}\n",
             80_000.0 / points as f64
         );
-        fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
-        let _ = fs::remove_dir_all(folder.path().join("scene"));
-        let output = tabor(folder.path(), &["run", "scene.toml", "--quiet"], None);
-        assert!(output.status.success(), "{name}: {}", errors(&output));
-        let summary = summary(&folder.path().join("scene"));
-        let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
+        let peak = peak_of(folder.path(), &text, &name, 0);
         let plan = plan(&text);
         let memory = plan.memory(plan.place()).expect("a count");
         let stated = if searches {
@@ -203,12 +204,7 @@ fn a_viscoelastic_path_takes_no_more_than_is_stated() {
              [solver]\nbackend = \"cpu\"\nprecision = \"{precision}\"\ntolerance = 1e-3\n[output]\nimages = []\n"
         );
         let name = format!("{boundary}, {points} points, {precision} precision");
-        fs::write(folder.path().join("scene.toml"), &text).expect("a scene");
-        let _ = fs::remove_dir_all(folder.path().join("scene"));
-        let output = tabor(folder.path(), &["run", "scene.toml", "--quiet"], None);
-        assert!(output.status.success(), "{name}: {}", errors(&output));
-        let summary = summary(&folder.path().join("scene"));
-        let peak = summary["peak_memory_bytes"].as_f64().expect("a peak");
+        let peak = peak_of(folder.path(), &text, &name, 0);
         let plan = plan(&text);
         let stated = plan.memory(plan.place()).expect("a count").machine as f64;
         let share = peak / stated;

@@ -193,7 +193,7 @@ impl Coordinates {
         let mut kept: Vec<f64> = self.parts.into_values().flatten().collect();
         kept.sort_by(f64::total_cmp);
         kept.dedup_by(|next, kept| *next - *kept <= same);
-        Axis::of(&kept)
+        Axis::from_coordinates(&kept)
     }
 }
 
@@ -207,7 +207,7 @@ struct Axis {
 
 impl Axis {
     /// The axis of rising coordinates.
-    fn of(coordinates: &[f64]) -> Result<Axis, String> {
+    fn from_coordinates(coordinates: &[f64]) -> Result<Axis, String> {
         let (Some(&least), Some(&greatest)) = (coordinates.first(), coordinates.last()) else {
             return Err("there is none".to_owned());
         };
