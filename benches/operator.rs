@@ -13,13 +13,13 @@ use tabor::elastic::HalfSpace;
 use tabor::grid::Grid;
 use tabor::kernel::{Gate, displacement};
 
-/// Points each way, from 256 to 8192, up to the number in `BENCH_POINTS` (2048 without it).
+/// Points each way, from 256 to 16384, up to the number in `BENCH_POINTS` (2048 without it).
 fn sizes() -> impl Iterator<Item = usize> {
     let most = std::env::var("BENCH_POINTS")
         .ok()
         .and_then(|text| text.parse().ok())
         .unwrap_or(2048);
-    (8..=13)
+    (8..=14)
         .map(|power| 1usize << power)
         .filter(move |&points| points <= most)
 }

@@ -51,11 +51,13 @@ struct Measured {
     copy_rate: f64,
     /// Of one iteration.
     timings: Timings,
+    /// Iterations that were timed.
+    iterations: u32,
     /// Seconds of an iteration by the host's clock, nothing timed on the device.
     iteration: f64,
 }
 
-fn setup(points: usize, adhesion: &str) -> Result<Setup, Box<dyn Error>> {
+fn scene(points: usize, adhesion: &str) -> Result<Scene, Box<dyn Error>> {
     let text = format!(
         r#"
         [grid]
@@ -77,19 +79,18 @@ fn setup(points: usize, adhesion: &str) -> Result<Setup, Box<dyn Error>> {
         "#,
         8.0 / points as f64
     );
-    let scene = Scene::parse(&text, "gpu_table", Path::new("."), &[])
-        .map_err(|errors| errors.to_string())?;
-    let surface = Surface::build(&scene)?;
-    Ok(Setup::new(scene, surface))
+    Ok(Scene::parse(&text, "gpu_table", Path::new("."), &[])
+        .map_err(|errors| errors.to_string())?)
 }
 
-/// Times iterations of a law on a grid; `None` where the device has no timestamps.
+/// Times iterations of a law on a surface; `None` where the device has no timestamps.
 fn measure(
     device: &GpuDevice,
     law: usize,
     points: usize,
+    surface: &Surface,
 ) -> Result<Option<Measured>, Box<dyn Error>> {
-    let setup = setup(points, LAWS[law].1)?;
+    let setup = Setup::new(scene(points, LAWS[law].1)?, surface.clone());
     let problem = &setup.problem;
     let pressure = PRESSURE / problem.scales.pressure;
     let load = Load {
@@ -106,13 +107,15 @@ fn measure(
     // No residual is small enough, so that none of the iterations idles.
     solver.begin(&load, &Start::Cold, 0.0, false)?;
     solver.precondition_by_levels();
-    solver.advance(ROUNDS[0])?;
+    let (_, before) = solver.advance(ROUNDS[0])?;
     watch.take();
-    solver.advance(rounds)?;
+    let (_, after) = solver.advance(rounds)?;
+    // A round that goes on with a search is no iteration.
+    let iterations = after.iterations - before.iterations;
     let mut timings = watch.take();
     for kernel in &mut timings.kernels {
-        kernel.seconds /= rounds as f64;
-        kernel.bytes /= rounds as u64;
+        kernel.seconds /= f64::from(iterations);
+        kernel.bytes /= u64::from(iterations);
     }
     let mut untimed = GpuBackend::on(device).looking_every(rounds);
     let mut solver = ContactSolver::new(&mut untimed, problem);
@@ -121,7 +124,7 @@ fn measure(
     solver.advance(ROUNDS[0])?;
     let clock = Instant::now();
     solver.advance(rounds)?;
-    let iteration = clock.elapsed().as_secs_f64() / rounds as f64;
+    let iteration = clock.elapsed().as_secs_f64() / f64::from(iterations);
     let Some(copy_rate) = device.copy_rate(4 * (points * points) as u64)? else {
         return Ok(None);
     };
@@ -130,6 +133,7 @@ fn measure(
         points,
         copy_rate,
         timings,
+        iterations,
         iteration,
     }))
 }
@@ -140,12 +144,14 @@ fn print(measured: &Measured) {
         points,
         copy_rate,
         timings,
+        iterations,
         iteration,
     } = measured;
     let field = 4.0 * (points * points) as f64;
     println!(
-        "\n{}, a pressure, {points} x {points}; a field is copied at {:.2} GB/s\n",
+        "\n{}, a pressure, {points} x {points}, {iterations} iterations in {} rounds; a field is copied at {:.2} GB/s\n",
         LAWS[*law].0,
+        ROUNDS[1],
         copy_rate / 1e9
     );
     println!("| kernel | dispatches | fields | device time (us) | GB/s | of the copy rate |");
@@ -155,7 +161,7 @@ fn print(measured: &Measured) {
         println!(
             "| {} | {} | {:.2} | {:.0} | {:.2} | {:.2} |",
             kernel.name,
-            kernel.dispatches as f64 / ROUNDS[1] as f64,
+            kernel.dispatches as f64 / f64::from(*iterations),
             kernel.bytes as f64 / field,
             1e6 * kernel.seconds,
             rate / 1e9,
@@ -238,9 +244,10 @@ fn main() -> Result<(), Box<dyn Error>> {
         );
     }
     let mut all = Vec::new();
-    for law in 0..LAWS.len() {
-        for &points in &sizes {
-            match measure(&device, law, points) {
+    for &points in &sizes {
+        let surface = Surface::build(&scene(points, "")?)?;
+        for law in 0..LAWS.len() {
+            match measure(&device, law, points, &surface) {
                 Ok(Some(measured)) => {
                     print(&measured);
                     all.push(measured);

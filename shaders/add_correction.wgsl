@@ -5,7 +5,7 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
         gap = corrected_gap(read_gap(index), read_correction(index));
     }
     write_gap(index, gap);
-    add_sum(GAP_EXCESS, wide(gap) - scalars.offset);
-    add_sum(RESTORING_WEIGHT, wide(pressure_weight(here_at(gap, 0.0, in_domain))));
+    into_gap_excess(wide(gap) - scalars.offset);
+    into_restoring_weight(wide(pressure_weight(here_at(gap, 0.0, in_domain))));
     return line;
 }

@@ -7,7 +7,7 @@ fn balance_terms(gap: real, pressure: real, in_domain: bool) {
     }
     let y = wide(pressure + pull);
     let weight = wide(pressure_weight(here));
-    add_sum(WEIGHTED_PRESSURE, weight * y);
-    add_sum(PRESSURE_WEIGHT, weight);
-    least(LEAST_PRESSURE, y);
+    into_weighted_pressure(weight * y);
+    into_pressure_weight(weight);
+    into_least_pressure(y);
 }

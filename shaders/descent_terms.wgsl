@@ -1,7 +1,7 @@
 // What beta is made of. Twins: kernel/descent.rs.
 fn descent_terms(z: real, residual: real, previous: real) {
-    add_sum(Z_RESIDUAL, wide(z) * wide(residual));
-    add_sum(Z_CHANGE, wide(z) * (wide(residual) - wide(previous)));
+    into_z_residual(wide(z) * wide(residual));
+    into_z_change(wide(z) * (wide(residual) - wide(previous)));
 }
 
 // What the direction adds to it, and what takes the means off, in the measure `weight` of the free points.
@@ -10,13 +10,13 @@ fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: re
     let r = wide(residual);
     let w = wide(weight);
     let change_here = r - wide(previous);
-    add_sum(DIRECTION_CHANGE, d * change_here);
+    into_direction_change(d * change_here);
     if (free) {
-        add_sum(DIRECTION_RESIDUAL, d * r);
-        add_sum(WEIGHTED_Z, w * wide(z));
-        add_sum(FREE_WEIGHT, w);
-        add_sum(FREE_RESIDUAL, r);
-        add_sum(FREE_CHANGE, change_here);
-        add_sum(WEIGHTED_DIRECTION, w * d);
+        into_direction_residual(d * r);
+        into_weighted_z(w * wide(z));
+        into_free_weight(w);
+        into_free_residual(r);
+        into_free_change(change_here);
+        into_weighted_direction(w * d);
     }
 }

@@ -6,14 +6,14 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let d = new_direction(line, read_direction(index), here.free);
     write_direction(index, d);
     let step = step_at(here, real(scalars.trial_length) * d, 0.0, in_domain).step;
-    add_sum(STEP_SUM, wide(step));
+    into_step_sum(wide(step));
     if (STORES_STEP) {
         write_step(index, step);
         let after = here_at(gap + step, elastic, in_domain);
-        add_sum(COMPLIANCE_SUM, wide(after.weight));
+        into_compliance_sum(wide(after.weight));
     } else {
-        add_sum(GAP_SUM, wide(gap));
-        add_sum(DEPTH_SUM, wide(max(-(gap + step), 0.0)));
+        into_gap_sum(wide(gap));
+        into_depth_sum(wide(max(-(gap + step), 0.0)));
     }
     return line;
 }

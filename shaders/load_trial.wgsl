@@ -3,8 +3,8 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let correction = real(scalars.mean_gap_correction);
     // A trial that nothing brings back is lost: one that moves and does not descend.
     if (!STORES_STEP && !(correction > -1.0 && correction < 1.0)) {
-        most(LARGEST_STEP, wide(1.0));
-        most(CUT, wide(0.0));
+        into_largest_step(wide(1.0));
+        into_cut(wide(0.0));
         return 0.0;
     }
     let here = here_at(read_gap(index), read_pressure(index) + real(scalars.mean_pressure), in_domain);

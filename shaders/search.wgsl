@@ -1,19 +1,19 @@
 // Change of the traction along a step at each length tried.
 fn changes(gap: real, step: real) {
     let s = wide(step);
-    add_sum(CHANGE_AT_FIRST, wide(change(gap, real(scalars.tried[0]) * step)) * s);
-    add_sum(CHANGE_AT_SECOND, wide(change(gap, real(scalars.tried[1]) * step)) * s);
-    add_sum(CHANGE_AT_THIRD, wide(change(gap, real(scalars.tried[2]) * step)) * s);
-    add_sum(CHANGE_AT_FOURTH, wide(change(gap, real(scalars.tried[3]) * step)) * s);
+    into_change_at_first(wide(change(gap, real(scalars.tried[0]) * step)) * s);
+    into_change_at_second(wide(change(gap, real(scalars.tried[1]) * step)) * s);
+    into_change_at_third(wide(change(gap, real(scalars.tried[2]) * step)) * s);
+    into_change_at_fourth(wide(change(gap, real(scalars.tried[3]) * step)) * s);
 }
 
 // Change of traction and energy of a smooth law.
 fn energies(gap: real, step: real) {
     let moved = real(scalars.step) * step;
     let energy = energy_change(gap, moved);
-    add_sum(CHANGE_AT_FIRST, wide(change(gap, moved)) * wide(step));
-    add_sum(ENERGY_CHANGE, wide(energy.x));
-    add_sum(ENERGY_SIZE, wide(energy.y));
+    into_change_at_first(wide(change(gap, moved)) * wide(step));
+    into_energy_change(wide(energy.x));
+    into_energy_size(wide(energy.y));
 }
 
 // What the step lengths that one pass tries change of the traction, of a smooth law of the energy.

@@ -1,28 +1,20 @@
-// Sums of a thread, and what of them passes between threads: the numbers as they are.
+// A sum while it is added up, and what of it passes between threads: the number as it is.
 alias part = wide;
 
-fn add_sum(slot: u32, term: wide) {
-    sums[slot] = sums[slot] + term;
+fn part_of(value: wide) -> part {
+    return value;
 }
 
-fn least(slot: u32, term: wide) {
-    if (term < sums[slot]) {
-        sums[slot] = term;
-    }
+fn add(sum: part, term: wide) -> part {
+    return sum + term;
 }
 
-fn most(slot: u32, term: wide) {
-    if (term > sums[slot]) {
-        sums[slot] = term;
-    }
+fn least(sum: part, term: wide) -> part {
+    return select(sum, term, term < sum);
 }
 
-fn part_of(slot: u32) -> part {
-    return sums[slot];
-}
-
-fn set_part(slot: u32, value: part) {
-    sums[slot] = value;
+fn most(sum: part, term: wide) -> part {
+    return select(sum, term, term > sum);
 }
 
 // What of it is compared.

@@ -1,8 +1,6 @@
-// Sums of a thread, and what of them passes between threads: a number and what rounding took from it,
+// A sum while it is added up, and what of it passes between threads: a number and what rounding took from it,
 // where the device has single precision alone.
 alias part = vec2<f32>;
-
-var<private> lost_sums: array<f32, SUM_COUNT>;
 
 // The same number, which no compiler knows to be: `params.zero` is zero. Without it the error terms
 // below are simplified away.
@@ -18,31 +16,21 @@ fn two_sum(a: f32, b: f32) -> vec2<f32> {
     return vec2<f32>(sum, opaque(opaque(a - first) + opaque(b - second)));
 }
 
-fn add_sum(slot: u32, term: f32) {
-    let added = two_sum(sums[slot], term);
-    sums[slot] = added.x;
-    lost_sums[slot] = lost_sums[slot] + added.y;
+fn part_of(value: wide) -> part {
+    return vec2<f32>(value, 0.0);
 }
 
-fn least(slot: u32, term: wide) {
-    if (term < sums[slot]) {
-        sums[slot] = term;
-    }
+fn add(sum: part, term: wide) -> part {
+    let added = two_sum(sum.x, term);
+    return vec2<f32>(added.x, sum.y + added.y);
 }
 
-fn most(slot: u32, term: wide) {
-    if (term > sums[slot]) {
-        sums[slot] = term;
-    }
+fn least(sum: part, term: wide) -> part {
+    return vec2<f32>(select(sum.x, term, term < sum.x), sum.y);
 }
 
-fn part_of(slot: u32) -> part {
-    return vec2<f32>(sums[slot], lost_sums[slot]);
-}
-
-fn set_part(slot: u32, value: part) {
-    sums[slot] = value.x;
-    lost_sums[slot] = value.y;
+fn most(sum: part, term: wide) -> part {
+    return vec2<f32>(select(sum.x, term, term > sum.x), sum.y);
 }
 
 // What of it is compared.

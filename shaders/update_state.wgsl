@@ -11,8 +11,8 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let here = here_at(moved.gap, moved.pressure + real(scalars.mean_pressure), in_domain);
     residual_terms(here, in_domain);
     let residual = projected_residual(here);
-    add_sum(DIRECTION_CHANGE, wide(direction) * (wide(residual) - wide(previous)));
-    add_sum(DIRECTION_RESIDUAL, wide(direction) * wide(residual));
+    into_direction_change(wide(direction) * (wide(residual) - wide(previous)));
+    into_direction_residual(wide(direction) * wide(residual));
     write_projected_residual(index, residual);
     return residual;
 }

@@ -35,6 +35,10 @@ const SHARE_HALVINGS: usize = 1;
 const POINT_ROUNDINGS: f64 = 170.0;
 /// Difference of a sum over its number of points, the same.
 const SUM_ROUNDINGS: f64 = 17.0;
+/// By how much a square of the 9-3 law's tension multiplies a rounding of the gap, in single precision: 2 * 9 |gap| / (gap +
+/// range) where a step has taken the gap deepest here, to 0.1 from the end of the range of 0.5. A device may round the
+/// product and the sum of a step once instead of twice.
+const STEEPNESS: f64 = 72.0;
 
 fn laws() -> [(&'static str, Law); 5] {
     let dugdale = |taper| {
@@ -325,19 +329,23 @@ fn compare(
     assert!(is_number(&twin), "{name}");
     let ours = run(&mut *gpu(), kernel, params, shape, &poison, case);
     let epsilon = case.number.epsilon();
+    let sum_roundings = match kernel.constraint {
+        Some(Constraint::Smooth) => SUM_ROUNDINGS + 2.0 * STEEPNESS,
+        _ => SUM_ROUNDINGS,
+    };
     for (slot, (a, b)) in ours.sums.iter().zip(&twin.sums).enumerate() {
         // The least of nothing is infinite on both.
         let difference = if a == b { 0.0 } else { (a - b).abs() };
         let error = difference / (shape.len() as f64).max(b.abs());
         assert!(
-            error < SUM_ROUNDINGS * epsilon,
+            error < sum_roundings * epsilon,
             "{name}: sum {slot}: {a} against {b}"
         );
         worst[1] = worst[1].max(error);
     }
     for (slot, (ours, twin)) in ours.fields.iter().zip(&twin.fields).enumerate() {
         for (index, (a, b)) in ours.iter().zip(twin).enumerate() {
-            let error = (a - b).abs();
+            let error = (a - b).abs() / b.abs().max(1.0);
             assert!(
                 error < POINT_ROUNDINGS * epsilon,
                 "{name}: output {slot} at {index}: {a} against {b}"

@@ -45,7 +45,7 @@ impl GpuBackend {
                 let buffer = self.device.guarded(|device| {
                     space::buffer(device, "turn", TURN_BYTES, wgpu::BufferUsages::UNIFORM)
                 })?;
-                self.overwrite(&buffer, turn.to_le_bytes().into_iter())?;
+                self.overwrite(&buffer, &turn.to_ne_bytes())?;
                 Ok(buffer)
             })
             .collect()
@@ -56,8 +56,8 @@ impl GpuBackend {
         let first = |field: &FieldSpace| field.slabs[0].clone();
         let buffers: Vec<_> = self.fields.iter().flatten().map(first).collect();
         buffers.iter().try_for_each(|buffer| {
-            let bytes = self.number.bytes_of([f64::NAN]);
-            self.recorder.write(buffer, bytes)
+            let (recorder, number) = (&mut self.recorder, self.number);
+            recorder.write_numbers(buffer, 0, &[f64::NAN], number)
         })
     }
 
@@ -66,12 +66,12 @@ impl GpuBackend {
         let plan = self.level_space(field.level)?.plan.clone();
         let slabs = self.field_space(field)?.slabs.clone();
         for (slab, buffer) in slabs.iter().enumerate() {
-            let [rows, partners] = plan
-                .slab_ranges(slab)
-                .map(|range| values.get(range).unwrap_or_default());
-            let values = rows.iter().chain(partners).copied();
-            let bytes = self.number.bytes_of(values);
-            self.overwrite(buffer, bytes)?;
+            let mut start = 0;
+            for range in plan.slab_ranges(slab) {
+                let values = values.get(range).unwrap_or_default();
+                self.overwrite_numbers(buffer, start, values)?;
+                start += self.number.bytes() * values.len();
+            }
         }
         Ok(())
     }
@@ -86,8 +86,7 @@ impl GpuBackend {
         let source = FactorSource::new(factors);
         let mut buffer = |numbers: usize, values: &[f64]| -> Result<wgpu::Buffer, GpuError> {
             let buffer = self.storage(name, self.number.bytes() * numbers)?;
-            let bytes = self.number.bytes_of(values.iter().copied());
-            self.overwrite(&buffer, bytes)?;
+            self.overwrite_numbers(&buffer, 0, values)?;
             Ok(buffer)
         };
         let (first, others) = match *factors {

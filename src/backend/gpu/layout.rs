@@ -4,6 +4,8 @@
 //! `real` is the number type of the fields, `wide` that of sums and scalars: f64 where the device has it,
 //! else f32.
 
+use rayon::prelude::*;
+
 use crate::kernel::declare::{DeviceValue, FromDevice, Kind, Word, members};
 use crate::kernel::{Params, Scalars, Status};
 
@@ -46,37 +48,29 @@ impl Number {
         }
     }
 
-    /// Converts doubles to bytes of this type.
-    pub fn bytes_of(self, values: impl IntoIterator<Item = f64>) -> impl Iterator<Item = u8> {
-        values.into_iter().flat_map(move |value| {
-            let (bytes, count) = match self {
-                Number::Single => {
-                    let mut bytes = [0; size_of::<f64>()];
-                    bytes[..size_of::<f32>()].copy_from_slice(&(value as f32).to_le_bytes());
-                    (bytes, size_of::<f32>())
-                }
-                Number::Double => (value.to_le_bytes(), size_of::<f64>()),
-            };
-            bytes.into_iter().take(count)
-        })
-    }
-
-    /// Converts bytes of this type to doubles.
-    pub fn values_of(self, bytes: &[u8]) -> Vec<f64> {
+    /// Calls a function with the bytes of these doubles as numbers of this type.
+    pub fn with_bytes<R>(self, values: &[f64], take: impl FnOnce(&[u8]) -> R) -> R {
         match self {
             Number::Single => {
-                let (values, _) = bytes.as_chunks();
-                values
-                    .iter()
-                    .map(|&bytes| f64::from(f32::from_le_bytes(bytes)))
-                    .collect()
+                let singles: Vec<f32> = values.par_iter().map(|&value| value as f32).collect();
+                take(bytemuck::cast_slice(&singles))
+            }
+            Number::Double => take(bytemuck::cast_slice(values)),
+        }
+    }
+
+    /// Converts bytes of this type to as many doubles.
+    pub fn read_bytes(self, bytes: &[u8], values: &mut [f64]) {
+        match self {
+            Number::Single => {
+                let (numbers, _) = bytes.as_chunks();
+                let each = values.par_iter_mut().zip(numbers);
+                each.for_each(|(value, &number)| *value = f64::from(f32::from_ne_bytes(number)));
             }
             Number::Double => {
-                let (values, _) = bytes.as_chunks();
-                values
-                    .iter()
-                    .map(|&bytes| f64::from_le_bytes(bytes))
-                    .collect()
+                let (numbers, _) = bytes.as_chunks();
+                let each = values.par_iter_mut().zip(numbers);
+                each.for_each(|(value, &number)| *value = f64::from_ne_bytes(number));
             }
         }
     }

@@ -221,11 +221,14 @@ impl GpuBackend {
             return Ok(buffer.clone());
         }
         let buffer = self.storage("roots", 2 * self.number.bytes() * length)?;
-        let values = (0..length).flat_map(|m| {
-            let angle = TAU * m as f64 / length as f64;
-            [angle.cos(), -angle.sin()]
-        });
-        self.recorder.write(&buffer, self.number.bytes_of(values))?;
+        let values: Vec<f64> = (0..length)
+            .flat_map(|m| {
+                let angle = TAU * m as f64 / length as f64;
+                [angle.cos(), -angle.sin()]
+            })
+            .collect();
+        let number = self.number;
+        self.recorder.write_numbers(&buffer, 0, &values, number)?;
         self.roots.insert(length, buffer.clone());
         Ok(buffer)
     }
@@ -265,13 +268,21 @@ impl GpuBackend {
     }
 
     /// Submits the recorded work, then overwrites the beginning of a buffer.
-    fn overwrite(
+    fn overwrite(&mut self, buffer: &wgpu::Buffer, bytes: &[u8]) -> Result<(), GpuError> {
+        self.settle()?;
+        self.recorder.write(buffer, 0, bytes)
+    }
+
+    /// The same with numbers, from a byte on.
+    fn overwrite_numbers(
         &mut self,
         buffer: &wgpu::Buffer,
-        bytes: impl Iterator<Item = u8>,
+        start: usize,
+        values: &[f64],
     ) -> Result<(), GpuError> {
         self.settle()?;
-        self.recorder.write(buffer, bytes)
+        self.recorder
+            .write_numbers(buffer, start, values, self.number)
     }
 }
 
@@ -333,8 +344,7 @@ impl Backend for GpuBackend {
     fn set_zero_mode(&mut self, spectrum: Spectrum, value: f64) {
         self.attempt(|backend| {
             let first = backend.spectrum_space(spectrum)?.first.clone();
-            let bytes = backend.number.bytes_of([value]);
-            backend.overwrite(&first, bytes)
+            backend.overwrite_numbers(&first, 0, &[value])
         });
     }
 
@@ -418,7 +428,7 @@ impl Backend for GpuBackend {
         let bytes = layout::params_bytes(params, self.wide);
         self.attempt(|backend| {
             let buffer = backend.params.clone();
-            backend.overwrite(&buffer, bytes.into_iter())
+            backend.overwrite(&buffer, &bytes)
         });
     }
 
@@ -426,7 +436,7 @@ impl Backend for GpuBackend {
         let bytes = layout::scalars_bytes(scalars, self.wide);
         self.attempt(|backend| {
             let buffer = backend.scalars.clone();
-            backend.overwrite(&buffer, bytes.into_iter())
+            backend.overwrite(&buffer, &bytes)
         });
     }
 

@@ -49,16 +49,13 @@ impl GpuBackend {
         let slabs = self.field_space(field)?.slabs.clone();
         let mut values = vec![f64::NAN; plan.points()];
         for (slab, buffer) in slabs.iter().enumerate() {
-            let bytes = self.recorder.read(&[Part {
-                buffer,
-                start: 0,
-                length: self.number.bytes() * plan.slab_points(),
-            }])?;
-            let numbers = self.number.values_of(&bytes);
-            let (rows, partners) = numbers.split_at(numbers.len() / 2);
-            let [to_rows, to_partners] = plan.slab_ranges(slab);
-            values[to_rows].copy_from_slice(rows);
-            values[to_partners].copy_from_slice(partners);
+            let mut start = 0;
+            for range in plan.slab_ranges(slab) {
+                let count = range.len();
+                self.recorder
+                    .read_numbers(buffer, start, &mut values[range], self.number)?;
+                start += self.number.bytes() * count;
+            }
         }
         Ok(values)
     }

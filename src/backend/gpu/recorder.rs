@@ -4,6 +4,7 @@ use std::sync::mpsc;
 
 use super::device::GpuDevice;
 use super::error::GpuError;
+use super::layout::Number;
 use super::timing::Timer;
 
 /// Bytes written or read at a time; each transfer needs a copy of them.
@@ -124,21 +125,35 @@ impl Recorder {
         self.submit(&[])
     }
 
-    /// Overwrites the beginning of a buffer after all work recorded so far.
+    /// Overwrites a part of a buffer from a byte on, after all work recorded so far.
     pub fn write(
         &mut self,
         buffer: &wgpu::Buffer,
-        bytes: impl Iterator<Item = u8>,
+        start: usize,
+        bytes: &[u8],
     ) -> Result<(), GpuError> {
         self.submit(&[])?;
-        let mut bytes = bytes.peekable();
-        let mut start = 0;
-        while bytes.peek().is_some() {
-            let piece: Vec<u8> = bytes.by_ref().take(PIECE).collect();
-            let queue = self.device.queue();
+        let queue = self.device.queue();
+        for (piece, at) in bytes.chunks(PIECE).zip((start..).step_by(PIECE)) {
             self.device
-                .guarded(|_| queue.write_buffer(buffer, start, &piece))?;
-            start += piece.len() as u64;
+                .guarded(|_| queue.write_buffer(buffer, at as u64, piece))?;
+        }
+        Ok(())
+    }
+
+    /// The same with numbers.
+    pub fn write_numbers(
+        &mut self,
+        buffer: &wgpu::Buffer,
+        start: usize,
+        values: &[f64],
+        number: Number,
+    ) -> Result<(), GpuError> {
+        for (piece, at) in values
+            .chunks(PIECE / number.bytes())
+            .zip((start..).step_by(PIECE))
+        {
+            number.with_bytes(piece, |bytes| self.write(buffer, at, bytes))?;
         }
         Ok(())
     }
@@ -156,38 +171,52 @@ impl Recorder {
 
     /// Waits for all work and reads some parts, one after another.
     pub fn read(&mut self, parts: &[Part]) -> Result<Vec<u8>, GpuError> {
-        let length: usize = parts.iter().map(|part| part.length).sum();
-        if length > PIECE && parts.len() == 1 {
-            let part = &parts[0];
-            let mut bytes = Vec::with_capacity(length);
-            for start in (0..length).step_by(PIECE) {
-                bytes.extend(self.read(&[Part {
-                    buffer: part.buffer,
-                    start: part.start + start,
-                    length: PIECE.min(length - start),
-                }])?);
-            }
-            return Ok(bytes);
-        }
-        let size = length.next_multiple_of(8) as u64;
-        if self
-            .staging
-            .as_ref()
-            .is_none_or(|staging| staging.size() < size)
+        self.read_with(parts, <[u8]>::to_vec)
+    }
+
+    /// Waits for all work and reads the numbers that a buffer begins with.
+    pub fn read_numbers(
+        &mut self,
+        buffer: &wgpu::Buffer,
+        start: usize,
+        values: &mut [f64],
+        number: Number,
+    ) -> Result<(), GpuError> {
+        for (piece, at) in values
+            .chunks_mut(PIECE / number.bytes())
+            .zip((start..).step_by(PIECE))
         {
-            self.staging = Some(self.device.guarded(|device| {
+            let part = Part {
+                buffer,
+                start: at,
+                length: number.bytes() * piece.len(),
+            };
+            self.read_with(&[part], |bytes| number.read_bytes(bytes, piece))?;
+        }
+        Ok(())
+    }
+
+    /// Waits for all work and calls a function with some parts, one after another.
+    fn read_with<R>(
+        &mut self,
+        parts: &[Part],
+        take: impl FnOnce(&[u8]) -> R,
+    ) -> Result<R, GpuError> {
+        let length: usize = parts.iter().map(|part| part.length).sum();
+        let size = length.next_multiple_of(8) as u64;
+        let staging = match self.staging.take() {
+            Some(staging) if staging.size() >= size => staging,
+            _ => self.device.guarded(|device| {
                 device.create_buffer(&wgpu::BufferDescriptor {
                     label: Some("staging"),
                     size,
                     usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
                     mapped_at_creation: false,
                 })
-            })?);
-        }
-        self.submit(parts)?;
-        let Some(staging) = &self.staging else {
-            return Ok(Vec::new());
+            })?,
         };
+        let staging = self.staging.insert(staging).clone();
+        self.submit(parts)?;
         let (sender, receiver) = mpsc::channel();
         self.device.guarded(|device| {
             staging.map_async(wgpu::MapMode::Read, 0..size, move |result| {
@@ -202,11 +231,12 @@ impl Recorder {
             .recv()
             .map_err(|_| GpuError::Device("a read was given up".to_string()))?
             .map_err(|error| GpuError::Device(error.to_string()))?;
-        let bytes = staging
-            .get_mapped_range(0..size)
-            .map_err(|error| GpuError::Device(error.to_string()))?[..length]
-            .to_vec();
+        let taken = take(
+            &staging
+                .get_mapped_range(0..size)
+                .map_err(|error| GpuError::Device(error.to_string()))?[..length],
+        );
         staging.unmap();
-        Ok(bytes)
+        Ok(taken)
     }
 }

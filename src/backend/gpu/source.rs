@@ -15,6 +15,7 @@ mod members;
 mod rows;
 mod slabs;
 mod snapshot;
+mod sums;
 
 use std::fmt::Write;
 
@@ -26,7 +27,7 @@ use super::layout::{self, Number, Wide};
 pub use super::level::LevelPlan;
 use super::level::{Place, SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
 use super::plan::LinePlan;
-use crate::kernel::{Form, Gate, Kernel, Reduce, SUMS, Sum};
+use crate::kernel::{Form, Gate, Kernel, Reduce};
 use crate::law::{Law, LawShader};
 pub use convert::convert;
 pub use copy::copy;
@@ -38,6 +39,7 @@ use rows::rows_main;
 pub use slabs::Whole;
 use slabs::{Work, after_turns, first_turn};
 pub use snapshot::representative;
+use sums::{Summed, Team};
 
 /// The law of a kernel: its WGSL, and where the factors on its tension are bound.
 #[derive(Clone, Copy, Debug)]
@@ -73,86 +75,20 @@ pub fn gate_name(gate: Gate) -> &'static str {
     }
 }
 
-fn reduce_name(reduce: Reduce) -> &'static str {
-    match reduce {
-        Reduce::Add => "add",
-        Reduce::Min => "min",
-        Reduce::Max => "max",
-    }
-}
-
-fn neutral(reduce: Reduce) -> &'static str {
-    match reduce {
-        Reduce::Add => "wide(0.0)",
-        Reduce::Min => "params.infinity",
-        Reduce::Max => "-params.infinity",
-    }
-}
-
 /// The parts before a kernel: number types and gates.
-fn preamble(source: &mut String, wide: Wide, access: &str, sums: usize) {
+fn preamble(source: &mut String, wide: Wide, access: &str) {
     source.push_str(&layout::declarations(wide));
     source.push_str(catalogue::COMMON);
     let _ = writeln!(
         source,
-        "@group(0) @binding(1) var<storage, {access}> scalars: Scalars;\n\
-         const SUM_COUNT: u32 = {sums}u;\n\
-         var<private> sums: array<wide, SUM_COUNT>;"
+        "@group(0) @binding(1) var<storage, {access}> scalars: Scalars;"
     );
     source.push_str(catalogue::GATE);
     source.push_str(match wide {
         Wide::Compensated => catalogue::SUMS_COMPENSATED,
         Wide::Single | Wide::Double => catalogue::SUMS,
     });
-}
-
-/// Code that clears a kernel's sums and reduces them over a workgroup, `at_once` of them together.
-fn reduction(source: &mut String, reduces: &[Reduce], threads: usize, at_once: usize) {
-    // The largest power of two below the number of threads.
-    let half = threads.next_power_of_two() / 2;
-    let _ = writeln!(
-        source,
-        "const GROUP_THREADS: u32 = {threads}u;\n\
-         const GROUP_HALF: u32 = {half}u;\n\
-         const SUMS_AT_ONCE: u32 = {at_once}u;\n\
-         const GROUP_VALUES: u32 = {}u;",
-        threads * at_once
-    );
     source.push_str(catalogue::REDUCE);
-    source.push_str("fn join_slot(slot: u32, a: part, b: part) -> part {\nswitch slot {\n");
-    for (slot, &reduce) in reduces.iter().enumerate() {
-        if reduce != Reduce::Add {
-            let name = reduce_name(reduce);
-            let _ = writeln!(source, "case {slot}u: {{ return join_{name}(a, b); }}");
-        }
-    }
-    source.push_str("default: { return join_add(a, b); }\n}\n}\nfn start_sums() {\n");
-    for (slot, &reduce) in reduces.iter().enumerate() {
-        let _ = writeln!(source, "sums[{slot}] = {};", neutral(reduce));
-    }
-    source.push_str("}\n");
-}
-
-/// Code that stores a workgroup's sums after `reduction`, at `first_partial` and beyond, for this many
-/// workgroups in each dispatch.
-fn hand_in(
-    source: &mut String,
-    reduces: &[Reduce],
-    [turns, turn_groups]: [usize; 2],
-    first_partial: usize,
-) {
-    let count = reduces.len();
-    let groups = turns * turn_groups;
-    let before = after_turns(turns, turn_groups);
-    let _ = write!(
-        source,
-        "fn hand_in(group: u32, thread: u32) {{\n\
-         for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
-         gather(first, thread);\n\
-         if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
-         partials.values[{first_partial}u + (first + thread) * {groups}u + {before}group] = group_values[thread * GROUP_THREADS];\n\
-         }}\n}}\n}}\n"
-    );
 }
 
 fn in_domain(source: &mut String, plan: &LevelPlan) {
@@ -215,7 +151,7 @@ pub fn kernel(
 ) -> Result<String, GpuError> {
     let shader = catalogue::shader(kernel.name).ok_or(GpuError::NoShader(kernel.name))?;
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read", kernel.sums.len() + 1);
+    preamble(&mut source, wide, "read");
     slabs::declare_turn(&mut source, plan);
     if !kernel.sums.is_empty() {
         let (threads, at_once) = match kernel.form {
@@ -223,10 +159,11 @@ pub fn kernel(
             _ => (plan.rows.group_threads(), plan.rows.sums_at_once),
         };
         let at_once = at_once.min(kernel.sums.len());
-        reduction(&mut source, kernel.reduces, threads, at_once);
+        let (sums, team) = (Summed::of_kernel(kernel), Team { threads, at_once });
         let first = plan.first_partial(Place::for_form(kernel.form));
         let groups = [plan.slabs, plan.slab_groups(kernel.form)];
-        hand_in(&mut source, kernel.reduces, groups, first);
+        sums::declare(&mut source, &sums);
+        sums::hand_in(&mut source, &sums, team, groups, first);
     }
     slabs::row_of(&mut source, plan);
     in_domain(&mut source, plan);
@@ -304,22 +241,8 @@ fn join(source: &mut String, kernel: &Kernel, shader: &Shader, law: LawSource, n
         parts.push(catalogue::constraint(constraint));
     }
     parts.extend(shader.parts);
-    sum_places(source, kernel, &parts);
+    sums::ignore_others(source, kernel, &parts);
     parts.into_iter().for_each(|part| source.push_str(part));
-}
-
-/// The places of the kernel's sums by their names. Sums that only other variants have share a place at the
-/// end.
-fn sum_places(source: &mut String, kernel: &Kernel, parts: &[&str]) {
-    for &sum in Sum::ALL {
-        let name = sum.name().to_uppercase();
-        let place = kernel.sums.iter().position(|&own| own == sum);
-        let asked = format!("({name},");
-        if place.is_some() || parts.iter().any(|part| part.contains(&asked)) {
-            let place = place.unwrap_or(kernel.sums.len());
-            let _ = writeln!(source, "const {name}: u32 = {place}u;");
-        }
-    }
 }
 
 /// Code of a kernel before and after its points.
@@ -357,6 +280,24 @@ fn ends(plan: &LinePlan) -> (usize, usize) {
     (first, plan.radices.last().copied().unwrap_or(1))
 }
 
+/// The curvature as the sum of a multiplication in workgroups of the threads of a line's plan.
+fn curvature(source: &mut String, plan: &LevelPlan, line: &LinePlan) {
+    let sums = [Summed::new("curvature", Reduce::Add)];
+    let team = Team {
+        threads: line.group_threads(),
+        at_once: 1,
+    };
+    let groups = [plan.parts, plan.part_groups()];
+    sums::declare(source, &sums);
+    sums::hand_in(
+        source,
+        &sums,
+        team,
+        groups,
+        plan.first_partial(Place::Columns),
+    );
+}
+
 /// The columns: their transform, the factors, and the transform back, in place.
 ///
 /// Work holds z = p(y) + i p(y + ny/2), transformed along x. Its values at kx and -kx give the
@@ -375,13 +316,10 @@ pub fn multiply(
     let pairs = plan.slab_pairs();
     let work = Work::new(plan);
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read", SUMS);
+    preamble(&mut source, wide, "read");
     slabs::declare_turn(&mut source, plan);
     if energy {
-        reduction(&mut source, &[Reduce::Add], columns.group_threads(), 1);
-        let first = plan.first_partial(Place::Columns);
-        let groups = [plan.parts, plan.part_groups()];
-        hand_in(&mut source, &[Reduce::Add], groups, first);
+        curvature(&mut source, plan, columns);
     }
     source.push_str(&LineWriter::declarations(columns));
     source.push_str(catalogue::FFT);
@@ -460,7 +398,7 @@ pub fn multiply(
             if energy {
                 let _ = writeln!(
                     source,
-                    "add_sum(0u, wide(weight * factor * dot({name}, {name})));"
+                    "into_curvature(wide(weight * factor * dot({name}, {name})));"
                 );
             }
             let _ = writeln!(source, "{name} = ({scale} * factor) * {name}; }}");

@@ -28,8 +28,9 @@ impl GpuBackend {
     pub(super) fn sums_survive(&mut self) -> Result<bool, GpuError> {
         let values = self.storage("sums", 8 + 8 * PAIRS)?;
         let given = self.storage("pairs", 8 * PAIRS)?;
-        let bytes = pairs().into_iter().flatten().flat_map(f32::to_le_bytes);
-        self.recorder.write(&given, bytes)?;
+        let numbers = pairs();
+        self.recorder
+            .write(&given, 0, bytemuck::cast_slice(&numbers))?;
         let shared = [&self.params, &self.scalars, &values];
         let prepared = self.prepare(
             "check",

@@ -2,30 +2,65 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 3u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 256u;
-const GROUP_HALF: u32 = 128u;
-const SUMS_AT_ONCE: u32 = 2u;
-const GROUP_VALUES: u32 = 512u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_gap_excess: part;
+fn into_gap_excess(term: wide) { sum_gap_excess = add(sum_gap_excess, term); }
+var<private> sum_restoring_weight: part;
+fn into_restoring_weight(term: wide) { sum_restoring_weight = add(sum_restoring_weight, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
+sum_gap_excess = part_of(wide(0.0));
+sum_restoring_weight = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 512>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 2u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 2u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_gap_excess;
+group_values[256u + thread] = sum_restoring_weight;
+workgroupBarrier();
+if (thread < 128u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[128u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[384u + thread]);
 }
+workgroupBarrier();
+if (thread < 64u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[64u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[320u + thread]);
+}
+workgroupBarrier();
+if (thread < 32u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[32u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[288u + thread]);
+}
+workgroupBarrier();
+if (thread < 16u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[16u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[272u + thread]);
+}
+workgroupBarrier();
+if (thread < 8u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[8u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[264u + thread]);
+}
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[260u + thread]);
+}
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[258u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[257u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[256u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -41,8 +76,6 @@ fn read_gap(index: u32) -> real { return field_gap[index]; }
 fn write_gap(index: u32, value: real) { field_gap[index] = value; }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-const GAP_EXCESS: u32 = 0u;
-const RESTORING_WEIGHT: u32 = 1u;
 // The 9-3 law: sigma = (8 w / 3 eps) (r^3 - r^9) with r = eps / (gap + eps).
 
 // Nearer than this share of the range r^9 would overflow what any load can balance.
@@ -329,8 +362,8 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
         gap = corrected_gap(read_gap(index), read_correction(index));
     }
     write_gap(index, gap);
-    add_sum(GAP_EXCESS, wide(gap) - scalars.offset);
-    add_sum(RESTORING_WEIGHT, wide(pressure_weight(here_at(gap, 0.0, in_domain))));
+    into_gap_excess(wide(gap) - scalars.offset);
+    into_restoring_weight(wide(pressure_weight(here_at(gap, 0.0, in_domain))));
     return line;
 }
 @compute @workgroup_size(256)

@@ -2,32 +2,48 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 4u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
-const SUMS_AT_ONCE: u32 = 3u;
-const GROUP_VALUES: u32 = 24u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-case 2u: { return join_min(a, b); }
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_weighted_pressure: part;
+fn into_weighted_pressure(term: wide) { sum_weighted_pressure = add(sum_weighted_pressure, term); }
+var<private> sum_pressure_weight: part;
+fn into_pressure_weight(term: wide) { sum_pressure_weight = add(sum_pressure_weight, term); }
+var<private> sum_least_pressure: part;
+fn into_least_pressure(term: wide) { sum_least_pressure = least(sum_least_pressure, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = params.infinity;
+sum_weighted_pressure = part_of(wide(0.0));
+sum_pressure_weight = part_of(wide(0.0));
+sum_least_pressure = part_of(params.infinity);
 }
+var<workgroup> group_values: array<part, 24>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 3u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 3u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_weighted_pressure;
+group_values[8u + thread] = sum_pressure_weight;
+group_values[16u + thread] = sum_least_pressure;
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[12u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[20u + thread]);
 }
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[10u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[18u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[9u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[17u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[8u];
+partials.values[2u + group] = group_values[16u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -54,9 +70,6 @@ fn write_step(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 const LINEAR: bool = true;
-const WEIGHTED_PRESSURE: u32 = 0u;
-const PRESSURE_WEIGHT: u32 = 1u;
-const LEAST_PRESSURE: u32 = 2u;
 // exp in single precision, where the device has it.
 fn exponential(x: f32) -> f32 {
     return exp(x);
@@ -305,9 +318,9 @@ fn balance_terms(gap: real, pressure: real, in_domain: bool) {
     }
     let y = wide(pressure + pull);
     let weight = wide(pressure_weight(here));
-    add_sum(WEIGHTED_PRESSURE, weight * y);
-    add_sum(PRESSURE_WEIGHT, weight);
-    least(LEAST_PRESSURE, y);
+    into_weighted_pressure(weight * y);
+    into_pressure_weight(weight);
+    into_least_pressure(y);
 }
 // Takes K s and steps where the mean gap is prescribed: g += t s, p += t K s.
 fn at(index: u32, in_domain: bool, line: real) -> real {

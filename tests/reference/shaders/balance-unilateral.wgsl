@@ -2,32 +2,78 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 4u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 256u;
-const GROUP_HALF: u32 = 128u;
-const SUMS_AT_ONCE: u32 = 3u;
-const GROUP_VALUES: u32 = 768u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-case 2u: { return join_min(a, b); }
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_weighted_pressure: part;
+fn into_weighted_pressure(term: wide) { sum_weighted_pressure = add(sum_weighted_pressure, term); }
+var<private> sum_pressure_weight: part;
+fn into_pressure_weight(term: wide) { sum_pressure_weight = add(sum_pressure_weight, term); }
+var<private> sum_least_pressure: part;
+fn into_least_pressure(term: wide) { sum_least_pressure = least(sum_least_pressure, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = params.infinity;
+sum_weighted_pressure = part_of(wide(0.0));
+sum_pressure_weight = part_of(wide(0.0));
+sum_least_pressure = part_of(params.infinity);
 }
+var<workgroup> group_values: array<part, 768>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 3u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 3u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_weighted_pressure;
+group_values[256u + thread] = sum_pressure_weight;
+group_values[512u + thread] = sum_least_pressure;
+workgroupBarrier();
+if (thread < 128u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[128u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[384u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[640u + thread]);
 }
+workgroupBarrier();
+if (thread < 64u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[64u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[320u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[576u + thread]);
+}
+workgroupBarrier();
+if (thread < 32u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[32u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[288u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[544u + thread]);
+}
+workgroupBarrier();
+if (thread < 16u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[16u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[272u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[528u + thread]);
+}
+workgroupBarrier();
+if (thread < 8u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[8u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[264u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[520u + thread]);
+}
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[260u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[516u + thread]);
+}
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[258u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[514u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[257u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[513u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[256u];
+partials.values[2u + group] = group_values[512u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -42,9 +88,6 @@ fn read_gap(index: u32) -> real { return field_gap[index]; }
 fn read_pressure(index: u32) -> real { return field_pressure[index]; }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-const WEIGHTED_PRESSURE: u32 = 0u;
-const PRESSURE_WEIGHT: u32 = 1u;
-const LEAST_PRESSURE: u32 = 2u;
 // exp in single precision, where the device has it.
 fn exponential(x: f32) -> f32 {
     return exp(x);
@@ -251,9 +294,9 @@ fn balance_terms(gap: real, pressure: real, in_domain: bool) {
     }
     let y = wide(pressure + pull);
     let weight = wide(pressure_weight(here));
-    add_sum(WEIGHTED_PRESSURE, weight * y);
-    add_sum(PRESSURE_WEIGHT, weight);
-    least(LEAST_PRESSURE, y);
+    into_weighted_pressure(weight * y);
+    into_pressure_weight(weight);
+    into_least_pressure(y);
 }
 // The sums that give the mean pressure under a prescribed mean gap.
 fn at(index: u32, in_domain: bool, line: real) -> real {

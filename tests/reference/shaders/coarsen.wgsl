@@ -2,10 +2,9 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 1u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
+// reduce.wgsl
 fn row_of(index: u32) -> u32 {
 return index / 8u;
 }
@@ -29,35 +28,43 @@ fn neighbour_share(place: u32, ratio: u32) -> real {
     return abs(real(2u * place + 1u) / real(2u * ratio) - 0.5);
 }
 
+// The place before one on a ring.
+fn before(place: u32, places: u32) -> u32 {
+    return select(place - 1u, places - 1u, place == 0u);
+}
+
+// The place after one on a ring.
+fn after(place: u32, places: u32) -> u32 {
+    return select(place + 1u, 0u, place + 1u == places);
+}
+
 // The cell before or after `cell` on a ring, for a place in the first or second half of `cell`.
 fn neighbour(cell: u32, place: u32, ratio: u32, cells: u32) -> u32 {
     if (place < ratio / 2u) {
-        return select(cell - 1u, cells - 1u, cell == 0u);
+        return before(cell, cells);
     }
-    return select(cell + 1u, 0u, cell + 1u == cells);
+    return after(cell, cells);
 }
 // Restricts the residual of a level: the transpose of the bilinear interpolation, over the number of finer
-// points along a cell. `whole_at` reads the finer field.
+// points along a cell. `whole_at` reads the finer field. Written out, since no compiler unrolls loops of a checked shader.
+const RATIO: u32 = 2u;
+
 fn at(index: u32, in_domain: bool, line: real) -> real {
-    let ratio = WHOLE_WIDTH / WIDTH;
-    let half = ratio / 2u;
-    let first_x = index % WIDTH * ratio + WHOLE_WIDTH - half;
-    let first_y = row_of(index) * ratio + WHOLE_HEIGHT - half;
-    var sum: real = 0.0;
-    // This cell's own points, and the nearer halves of the cells around it.
-    for (var row = 0u; row < 2u * ratio; row = row + 1u) {
-        let fine_row = (first_y + row) % WHOLE_HEIGHT;
-        let own_row = row >= half && row < half + ratio;
-        let far_y = neighbour_share((row + half) % ratio, ratio);
-        let weight = select(far_y, 1.0 - far_y, own_row);
-        for (var column = 0u; column < 2u * ratio; column = column + 1u) {
-            let value = whole_at((first_x + column) % WHOLE_WIDTH, fine_row);
-            let own_column = column >= half && column < half + ratio;
-            let far_x = neighbour_share((column + half) % ratio, ratio);
-            sum = sum + weight * select(far_x, 1.0 - far_x, own_column) * value;
-        }
-    }
-    write_restricted(index, sum / real(ratio));
+    let x = RATIO * (index % WIDTH);
+    let y = RATIO * row_of(index);
+    let left = before(x, WHOLE_WIDTH);
+    let right = after(x + 1u, WHOLE_WIDTH);
+    let above = before(y, WHOLE_HEIGHT);
+    let below = after(y + 1u, WHOLE_HEIGHT);
+    // This cell's own rows, and the nearer ones of the cells before and after.
+    let a = vec4<real>(whole_at(left, above), whole_at(x, above), whole_at(x + 1u, above), whole_at(right, above));
+    let b = vec4<real>(whole_at(left, y), whole_at(x, y), whole_at(x + 1u, y), whole_at(right, y));
+    let c = vec4<real>(whole_at(left, y + 1u), whole_at(x, y + 1u), whole_at(x + 1u, y + 1u), whole_at(right, y + 1u));
+    let d = vec4<real>(whole_at(left, below), whole_at(x, below), whole_at(x + 1u, below), whole_at(right, below));
+    let far = neighbour_share(0u, RATIO);
+    let near = 1.0 - far;
+    let columns = (far * (a + d) + near * (b + c)) / real(RATIO);
+    write_restricted(index, near * (columns.y + columns.z) + far * (columns.x + columns.w));
     return line;
 }
 @compute @workgroup_size(256)

@@ -1,10 +1,9 @@
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read_write> scalars: Scalars;
-const SUM_COUNT: u32 = 4u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
+// reduce.wgsl
 const LOST_TRIALS: u32 = 25;
 const LOST_BEFORE_DESCENT: u32 = 5;
 const SHORTEN: wide = 0.3;
@@ -530,38 +529,96 @@ fn adapt_trial_length() {
     }
     scalars.trial_length = scalars.trial_length * clamp(scalars.step, wide(0.3), wide(2.0));
 }
-const GROUP_THREADS: u32 = 256u;
-const GROUP_HALF: u32 = 128u;
-const SUMS_AT_ONCE: u32 = 4u;
-const GROUP_VALUES: u32 = 1024u;
-// reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-case 2u: { return join_min(a, b); }
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_0: part;
+fn into_0(term: wide) { sum_0 = add(sum_0, term); }
+var<private> sum_1: part;
+fn into_1(term: wide) { sum_1 = add(sum_1, term); }
+var<private> sum_2: part;
+fn into_2(term: wide) { sum_2 = least(sum_2, term); }
+var<private> sum_3: part;
+fn into_3(term: wide) { sum_3 = add(sum_3, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = params.infinity;
-sums[3] = wide(0.0);
+sum_0 = part_of(wide(0.0));
+sum_1 = part_of(wide(0.0));
+sum_2 = part_of(params.infinity);
+sum_3 = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 1024>;
 var<workgroup> totals: array<wide, 4>;
 fn put_together(thread: u32) {
 start_sums();
-for (var slot = 0u; slot < 4u; slot = slot + 1u) {
-var total = part_of(0u + slot);
 for (var group = thread; group < 7u; group = group + 256u) {
-total = join_slot(0u + slot, total, partials.values[0u + slot * 7u + group]);
+sum_0 = join_add(sum_0, partials.values[0u + group]);
+sum_1 = join_add(sum_1, partials.values[7u + group]);
+sum_2 = join_min(sum_2, partials.values[14u + group]);
+sum_3 = join_add(sum_3, partials.values[21u + group]);
 }
-set_part(0u + slot, total);
+group_values[0u + thread] = sum_0;
+group_values[256u + thread] = sum_1;
+group_values[512u + thread] = sum_2;
+group_values[768u + thread] = sum_3;
+workgroupBarrier();
+if (thread < 128u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[128u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[384u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[640u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[896u + thread]);
 }
-for (var first = 0u; first < 4u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 4u) {
-totals[first + thread] = part_value(group_values[thread * GROUP_THREADS]);
+workgroupBarrier();
+if (thread < 64u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[64u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[320u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[576u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[832u + thread]);
 }
+workgroupBarrier();
+if (thread < 32u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[32u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[288u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[544u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[800u + thread]);
+}
+workgroupBarrier();
+if (thread < 16u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[16u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[272u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[528u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[784u + thread]);
+}
+workgroupBarrier();
+if (thread < 8u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[8u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[264u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[520u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[776u + thread]);
+}
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[260u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[516u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[772u + thread]);
+}
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[258u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[514u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[770u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[257u + thread]);
+group_values[512u + thread] = join_min(group_values[512u + thread], group_values[513u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[769u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+totals[0] = part_value(group_values[0u]);
+totals[1] = part_value(group_values[256u]);
+totals[2] = part_value(group_values[512u]);
+totals[3] = part_value(group_values[768u]);
 }
 workgroupBarrier();
 }

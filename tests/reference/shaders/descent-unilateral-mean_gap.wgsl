@@ -2,37 +2,96 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 10u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
-const SUMS_AT_ONCE: u32 = 9u;
-const GROUP_VALUES: u32 = 72u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_z_residual: part;
+fn into_z_residual(term: wide) { sum_z_residual = add(sum_z_residual, term); }
+var<private> sum_z_change: part;
+fn into_z_change(term: wide) { sum_z_change = add(sum_z_change, term); }
+var<private> sum_direction_change: part;
+fn into_direction_change(term: wide) { sum_direction_change = add(sum_direction_change, term); }
+var<private> sum_direction_residual: part;
+fn into_direction_residual(term: wide) { sum_direction_residual = add(sum_direction_residual, term); }
+var<private> sum_weighted_z: part;
+fn into_weighted_z(term: wide) { sum_weighted_z = add(sum_weighted_z, term); }
+var<private> sum_free_weight: part;
+fn into_free_weight(term: wide) { sum_free_weight = add(sum_free_weight, term); }
+var<private> sum_free_residual: part;
+fn into_free_residual(term: wide) { sum_free_residual = add(sum_free_residual, term); }
+var<private> sum_free_change: part;
+fn into_free_change(term: wide) { sum_free_change = add(sum_free_change, term); }
+var<private> sum_weighted_direction: part;
+fn into_weighted_direction(term: wide) { sum_weighted_direction = add(sum_weighted_direction, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = wide(0.0);
-sums[3] = wide(0.0);
-sums[4] = wide(0.0);
-sums[5] = wide(0.0);
-sums[6] = wide(0.0);
-sums[7] = wide(0.0);
-sums[8] = wide(0.0);
+sum_z_residual = part_of(wide(0.0));
+sum_z_change = part_of(wide(0.0));
+sum_direction_change = part_of(wide(0.0));
+sum_direction_residual = part_of(wide(0.0));
+sum_weighted_z = part_of(wide(0.0));
+sum_free_weight = part_of(wide(0.0));
+sum_free_residual = part_of(wide(0.0));
+sum_free_change = part_of(wide(0.0));
+sum_weighted_direction = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 72>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 9u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 9u) {
-partials.values[10u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_z_residual;
+group_values[8u + thread] = sum_z_change;
+group_values[16u + thread] = sum_direction_change;
+group_values[24u + thread] = sum_direction_residual;
+group_values[32u + thread] = sum_weighted_z;
+group_values[40u + thread] = sum_free_weight;
+group_values[48u + thread] = sum_free_residual;
+group_values[56u + thread] = sum_free_change;
+group_values[64u + thread] = sum_weighted_direction;
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[12u + thread]);
+group_values[16u + thread] = join_add(group_values[16u + thread], group_values[20u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[28u + thread]);
+group_values[32u + thread] = join_add(group_values[32u + thread], group_values[36u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[44u + thread]);
+group_values[48u + thread] = join_add(group_values[48u + thread], group_values[52u + thread]);
+group_values[56u + thread] = join_add(group_values[56u + thread], group_values[60u + thread]);
+group_values[64u + thread] = join_add(group_values[64u + thread], group_values[68u + thread]);
 }
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[10u + thread]);
+group_values[16u + thread] = join_add(group_values[16u + thread], group_values[18u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[26u + thread]);
+group_values[32u + thread] = join_add(group_values[32u + thread], group_values[34u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[42u + thread]);
+group_values[48u + thread] = join_add(group_values[48u + thread], group_values[50u + thread]);
+group_values[56u + thread] = join_add(group_values[56u + thread], group_values[58u + thread]);
+group_values[64u + thread] = join_add(group_values[64u + thread], group_values[66u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[9u + thread]);
+group_values[16u + thread] = join_add(group_values[16u + thread], group_values[17u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[25u + thread]);
+group_values[32u + thread] = join_add(group_values[32u + thread], group_values[33u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[41u + thread]);
+group_values[48u + thread] = join_add(group_values[48u + thread], group_values[49u + thread]);
+group_values[56u + thread] = join_add(group_values[56u + thread], group_values[57u + thread]);
+group_values[64u + thread] = join_add(group_values[64u + thread], group_values[65u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[10u + group] = group_values[0u];
+partials.values[11u + group] = group_values[8u];
+partials.values[12u + group] = group_values[16u];
+partials.values[13u + group] = group_values[24u];
+partials.values[14u + group] = group_values[32u];
+partials.values[15u + group] = group_values[40u];
+partials.values[16u + group] = group_values[48u];
+partials.values[17u + group] = group_values[56u];
+partials.values[18u + group] = group_values[64u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -52,15 +111,6 @@ fn read_direction(index: u32) -> real { return field_direction[index]; }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 const MEAN_GAP: bool = true;
-const Z_RESIDUAL: u32 = 0u;
-const Z_CHANGE: u32 = 1u;
-const DIRECTION_CHANGE: u32 = 2u;
-const DIRECTION_RESIDUAL: u32 = 3u;
-const WEIGHTED_Z: u32 = 4u;
-const FREE_WEIGHT: u32 = 5u;
-const FREE_RESIDUAL: u32 = 6u;
-const FREE_CHANGE: u32 = 7u;
-const WEIGHTED_DIRECTION: u32 = 8u;
 // exp in single precision, where the device has it.
 fn exponential(x: f32) -> f32 {
     return exp(x);
@@ -260,8 +310,8 @@ fn net_traction(here: Here) -> real {
 }
 // What beta is made of. Twins: kernel/descent.rs.
 fn descent_terms(z: real, residual: real, previous: real) {
-    add_sum(Z_RESIDUAL, wide(z) * wide(residual));
-    add_sum(Z_CHANGE, wide(z) * (wide(residual) - wide(previous)));
+    into_z_residual(wide(z) * wide(residual));
+    into_z_change(wide(z) * (wide(residual) - wide(previous)));
 }
 
 // What the direction adds to it, and what takes the means off, in the measure `weight` of the free points.
@@ -270,14 +320,14 @@ fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: re
     let r = wide(residual);
     let w = wide(weight);
     let change_here = r - wide(previous);
-    add_sum(DIRECTION_CHANGE, d * change_here);
+    into_direction_change(d * change_here);
     if (free) {
-        add_sum(DIRECTION_RESIDUAL, d * r);
-        add_sum(WEIGHTED_Z, w * wide(z));
-        add_sum(FREE_WEIGHT, w);
-        add_sum(FREE_RESIDUAL, r);
-        add_sum(FREE_CHANGE, change_here);
-        add_sum(WEIGHTED_DIRECTION, w * d);
+        into_direction_residual(d * r);
+        into_weighted_z(w * wide(z));
+        into_free_weight(w);
+        into_free_residual(r);
+        into_free_change(change_here);
+        into_weighted_direction(w * d);
     }
 }
 // Retains the rows of z, the preconditioned residual.

@@ -2,30 +2,40 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 3u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
-const SUMS_AT_ONCE: u32 = 2u;
-const GROUP_VALUES: u32 = 16u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_step_sum: part;
+fn into_step_sum(term: wide) { sum_step_sum = add(sum_step_sum, term); }
+var<private> sum_compliance_sum: part;
+fn into_compliance_sum(term: wide) { sum_compliance_sum = add(sum_compliance_sum, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
+sum_step_sum = part_of(wide(0.0));
+sum_compliance_sum = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 16>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 2u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 2u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_step_sum;
+group_values[8u + thread] = sum_compliance_sum;
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[12u + thread]);
 }
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[10u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[9u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[8u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -46,10 +56,8 @@ fn read_pressure(index: u32) -> real { return 0.0; }
 fn write_pressure(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-const STEP_SUM: u32 = 0u;
-const GAP_SUM: u32 = 2u;
-const DEPTH_SUM: u32 = 2u;
-const COMPLIANCE_SUM: u32 = 1u;
+fn into_gap_sum(term: wide) {}
+fn into_depth_sum(term: wide) {}
 // The 9-3 law: sigma = (8 w / 3 eps) (r^3 - r^9) with r = eps / (gap + eps).
 
 // Nearer than this share of the range r^9 would overflow what any load can balance.
@@ -352,14 +360,14 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let d = new_direction(line, read_direction(index), here.free);
     write_direction(index, d);
     let step = step_at(here, real(scalars.trial_length) * d, 0.0, in_domain).step;
-    add_sum(STEP_SUM, wide(step));
+    into_step_sum(wide(step));
     if (STORES_STEP) {
         write_step(index, step);
         let after = here_at(gap + step, elastic, in_domain);
-        add_sum(COMPLIANCE_SUM, wide(after.weight));
+        into_compliance_sum(wide(after.weight));
     } else {
-        add_sum(GAP_SUM, wide(gap));
-        add_sum(DEPTH_SUM, wide(max(-(gap + step), 0.0)));
+        into_gap_sum(wide(gap));
+        into_depth_sum(wide(max(-(gap + step), 0.0)));
     }
     return line;
 }

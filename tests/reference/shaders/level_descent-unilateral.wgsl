@@ -2,30 +2,40 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 3u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
-const SUMS_AT_ONCE: u32 = 2u;
-const GROUP_VALUES: u32 = 16u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_z_residual: part;
+fn into_z_residual(term: wide) { sum_z_residual = add(sum_z_residual, term); }
+var<private> sum_z_change: part;
+fn into_z_change(term: wide) { sum_z_change = add(sum_z_change, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
+sum_z_residual = part_of(wide(0.0));
+sum_z_change = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 16>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 2u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 2u) {
-partials.values[10u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_z_residual;
+group_values[8u + thread] = sum_z_change;
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[12u + thread]);
 }
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[10u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[9u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[10u + group] = group_values[0u];
+partials.values[11u + group] = group_values[8u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -59,15 +69,13 @@ fn whole_at(column: u32, row: u32) -> real {
 return whole_0[row * 4u + column];
 }
 const MEAN_GAP: bool = false;
-const Z_RESIDUAL: u32 = 0u;
-const Z_CHANGE: u32 = 1u;
-const DIRECTION_CHANGE: u32 = 2u;
-const DIRECTION_RESIDUAL: u32 = 2u;
-const WEIGHTED_Z: u32 = 2u;
-const FREE_WEIGHT: u32 = 2u;
-const FREE_RESIDUAL: u32 = 2u;
-const FREE_CHANGE: u32 = 2u;
-const WEIGHTED_DIRECTION: u32 = 2u;
+fn into_direction_change(term: wide) {}
+fn into_direction_residual(term: wide) {}
+fn into_weighted_z(term: wide) {}
+fn into_free_weight(term: wide) {}
+fn into_free_residual(term: wide) {}
+fn into_free_change(term: wide) {}
+fn into_weighted_direction(term: wide) {}
 // No attraction at all.
 fn law_traction(gap_here: real) -> real {
     return 0.0;
@@ -250,12 +258,22 @@ fn neighbour_share(place: u32, ratio: u32) -> real {
     return abs(real(2u * place + 1u) / real(2u * ratio) - 0.5);
 }
 
+// The place before one on a ring.
+fn before(place: u32, places: u32) -> u32 {
+    return select(place - 1u, places - 1u, place == 0u);
+}
+
+// The place after one on a ring.
+fn after(place: u32, places: u32) -> u32 {
+    return select(place + 1u, 0u, place + 1u == places);
+}
+
 // The cell before or after `cell` on a ring, for a place in the first or second half of `cell`.
 fn neighbour(cell: u32, place: u32, ratio: u32, cells: u32) -> u32 {
     if (place < ratio / 2u) {
-        return select(cell - 1u, cells - 1u, cell == 0u);
+        return before(cell, cells);
     }
-    return select(cell + 1u, 0u, cell + 1u == cells);
+    return after(cell, cells);
 }
 // Adds a field of the next coarser level, which `whole_at` reads, interpolated. Twins: kernel/multilevel.rs.
 fn add_interpolated(index: u32, value: real) -> real {
@@ -285,8 +303,8 @@ fn finest_answer(index: u32) -> real {
 }
 // What beta is made of. Twins: kernel/descent.rs.
 fn descent_terms(z: real, residual: real, previous: real) {
-    add_sum(Z_RESIDUAL, wide(z) * wide(residual));
-    add_sum(Z_CHANGE, wide(z) * (wide(residual) - wide(previous)));
+    into_z_residual(wide(z) * wide(residual));
+    into_z_change(wide(z) * (wide(residual) - wide(previous)));
 }
 
 // What the direction adds to it, and what takes the means off, in the measure `weight` of the free points.
@@ -295,14 +313,14 @@ fn mean_gap_descent_terms(z: real, residual: real, previous: real, direction: re
     let r = wide(residual);
     let w = wide(weight);
     let change_here = r - wide(previous);
-    add_sum(DIRECTION_CHANGE, d * change_here);
+    into_direction_change(d * change_here);
     if (free) {
-        add_sum(DIRECTION_RESIDUAL, d * r);
-        add_sum(WEIGHTED_Z, w * wide(z));
-        add_sum(FREE_WEIGHT, w);
-        add_sum(FREE_RESIDUAL, r);
-        add_sum(FREE_CHANGE, change_here);
-        add_sum(WEIGHTED_DIRECTION, w * d);
+        into_direction_residual(d * r);
+        into_weighted_z(w * wide(z));
+        into_free_weight(w);
+        into_free_residual(r);
+        into_free_change(change_here);
+        into_weighted_direction(w * d);
     }
 }
 // Retains the rows of z: what the levels answer, on free points.

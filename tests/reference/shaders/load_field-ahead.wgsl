@@ -2,10 +2,9 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 1u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
+// reduce.wgsl
 fn row_of(index: u32) -> u32 {
 return index / 8u;
 }

@@ -2,33 +2,56 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 5u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
-const SUMS_AT_ONCE: u32 = 4u;
-const GROUP_VALUES: u32 = 32u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-case 2u: { return join_min(a, b); }
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_violation: part;
+fn into_violation(term: wide) { sum_violation = add(sum_violation, term); }
+var<private> sum_pressures: part;
+fn into_pressures(term: wide) { sum_pressures = add(sum_pressures, term); }
+var<private> sum_least_gap: part;
+fn into_least_gap(term: wide) { sum_least_gap = least(sum_least_gap, term); }
+var<private> sum_gap_squares: part;
+fn into_gap_squares(term: wide) { sum_gap_squares = add(sum_gap_squares, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = params.infinity;
-sums[3] = wide(0.0);
+sum_violation = part_of(wide(0.0));
+sum_pressures = part_of(wide(0.0));
+sum_least_gap = part_of(params.infinity);
+sum_gap_squares = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 32>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 4u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 4u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_violation;
+group_values[8u + thread] = sum_pressures;
+group_values[16u + thread] = sum_least_gap;
+group_values[24u + thread] = sum_gap_squares;
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[12u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[20u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[28u + thread]);
 }
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[10u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[18u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[26u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[9u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[17u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[25u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[8u];
+partials.values[2u + group] = group_values[16u];
+partials.values[3u + group] = group_values[24u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -45,10 +68,6 @@ fn read_projected_residual(index: u32) -> real { return 0.0; }
 fn write_projected_residual(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-const VIOLATION: u32 = 0u;
-const PRESSURES: u32 = 1u;
-const LEAST_GAP: u32 = 2u;
-const GAP_SQUARES: u32 = 3u;
 // exp in single precision, where the device has it.
 fn exponential(x: f32) -> f32 {
     return exp(x);
@@ -249,17 +268,17 @@ fn net_traction(here: Here) -> real {
 // Twins: kernel/measure.rs.
 fn residual_terms(here: Here, in_domain: bool) {
     if (!in_domain) {
-        add_sum(VIOLATION, wide(here.y) * wide(here.y));
+        into_violation(wide(here.y) * wide(here.y));
         return;
     }
     let found = violation(here);
     let off = wide(found.violation);
     let pressed = wide(weighed(found.reaction));
     let pulled = wide(weighed(found.traction));
-    add_sum(VIOLATION, off * off);
-    add_sum(PRESSURES, (pressed * pressed + pulled * pulled));
-    least(LEAST_GAP, wide(here.open));
-    add_sum(GAP_SQUARES, wide(here.gap) * wide(here.gap));
+    into_violation(off * off);
+    into_pressures((pressed * pressed + pulled * pulled));
+    into_least_gap(wide(here.open));
+    into_gap_squares(wide(here.gap) * wide(here.gap));
 }
 // Fills the rows of a transform with the projected residual and takes the stopping measure on the way.
 fn at(index: u32, in_domain: bool, line: real) -> real {

@@ -2,29 +2,36 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 10u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 16u;
-const GROUP_HALF: u32 = 8u;
-const SUMS_AT_ONCE: u32 = 1u;
-const GROUP_VALUES: u32 = 16u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_curvature: part;
+fn into_curvature(term: wide) { sum_curvature = add(sum_curvature, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
+sum_curvature = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 16>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 1u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 1u) {
-partials.values[20u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_curvature;
+workgroupBarrier();
+if (thread < 8u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[8u + thread]);
 }
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+}
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[20u + group] = group_values[0u];
 }
 }
 var<workgroup> exchange: array<vec2<real>, 64>;
@@ -135,21 +142,21 @@ let weight = select(real(2.0), real(1.0), own);
 { let j = thread + 0u;
 { let row = (j + 0u);
 let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v0, v0)));
+into_curvature(wide(weight * factor * dot(v0, v0)));
 v0 = (1.5625e-2 * factor) * v0; }
 { let row = (j + 4u);
 let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v1, v1)));
+into_curvature(wide(weight * factor * dot(v1, v1)));
 v1 = (1.5625e-2 * factor) * v1; }
 }
 { let j = thread + 2u;
 { let row = (j + 0u);
 let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v2, v2)));
+into_curvature(wide(weight * factor * dot(v2, v2)));
 v2 = (1.5625e-2 * factor) * v2; }
 { let row = (j + 4u);
 let factor = factor_of(column, min(row, 8u - row));
-add_sum(0u, wide(weight * factor * dot(v3, v3)));
+into_curvature(wide(weight * factor * dot(v3, v3)));
 v3 = (1.5625e-2 * factor) * v3; }
 }
 }

@@ -2,10 +2,9 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 1u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
+// reduce.wgsl
 fn row_of(index: u32) -> u32 {
 return index / 8u;
 }
@@ -29,12 +28,22 @@ fn neighbour_share(place: u32, ratio: u32) -> real {
     return abs(real(2u * place + 1u) / real(2u * ratio) - 0.5);
 }
 
+// The place before one on a ring.
+fn before(place: u32, places: u32) -> u32 {
+    return select(place - 1u, places - 1u, place == 0u);
+}
+
+// The place after one on a ring.
+fn after(place: u32, places: u32) -> u32 {
+    return select(place + 1u, 0u, place + 1u == places);
+}
+
 // The cell before or after `cell` on a ring, for a place in the first or second half of `cell`.
 fn neighbour(cell: u32, place: u32, ratio: u32, cells: u32) -> u32 {
     if (place < ratio / 2u) {
-        return select(cell - 1u, cells - 1u, cell == 0u);
+        return before(cell, cells);
     }
-    return select(cell + 1u, 0u, cell + 1u == cells);
+    return after(cell, cells);
 }
 // Adds a field of the next coarser level, which `whole_at` reads, interpolated. Twins: kernel/multilevel.rs.
 fn add_interpolated(index: u32, value: real) -> real {

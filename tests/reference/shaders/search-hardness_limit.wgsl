@@ -2,32 +2,91 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 5u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 256u;
-const GROUP_HALF: u32 = 128u;
-const SUMS_AT_ONCE: u32 = 4u;
-const GROUP_VALUES: u32 = 1024u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_change_at_first: part;
+fn into_change_at_first(term: wide) { sum_change_at_first = add(sum_change_at_first, term); }
+var<private> sum_change_at_second: part;
+fn into_change_at_second(term: wide) { sum_change_at_second = add(sum_change_at_second, term); }
+var<private> sum_change_at_third: part;
+fn into_change_at_third(term: wide) { sum_change_at_third = add(sum_change_at_third, term); }
+var<private> sum_change_at_fourth: part;
+fn into_change_at_fourth(term: wide) { sum_change_at_fourth = add(sum_change_at_fourth, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = wide(0.0);
-sums[3] = wide(0.0);
+sum_change_at_first = part_of(wide(0.0));
+sum_change_at_second = part_of(wide(0.0));
+sum_change_at_third = part_of(wide(0.0));
+sum_change_at_fourth = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 1024>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 4u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 4u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_change_at_first;
+group_values[256u + thread] = sum_change_at_second;
+group_values[512u + thread] = sum_change_at_third;
+group_values[768u + thread] = sum_change_at_fourth;
+workgroupBarrier();
+if (thread < 128u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[128u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[384u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[640u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[896u + thread]);
 }
+workgroupBarrier();
+if (thread < 64u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[64u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[320u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[576u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[832u + thread]);
+}
+workgroupBarrier();
+if (thread < 32u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[32u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[288u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[544u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[800u + thread]);
+}
+workgroupBarrier();
+if (thread < 16u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[16u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[272u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[528u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[784u + thread]);
+}
+workgroupBarrier();
+if (thread < 8u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[8u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[264u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[520u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[776u + thread]);
+}
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[260u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[516u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[772u + thread]);
+}
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[258u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[514u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[770u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[257u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[513u + thread]);
+group_values[768u + thread] = join_add(group_values[768u + thread], group_values[769u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[256u];
+partials.values[2u + group] = group_values[512u];
+partials.values[3u + group] = group_values[768u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -46,12 +105,8 @@ fn read_step(index: u32) -> real { return 0.0; }
 fn write_step(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-const CHANGE_AT_FIRST: u32 = 0u;
-const CHANGE_AT_SECOND: u32 = 1u;
-const CHANGE_AT_THIRD: u32 = 2u;
-const CHANGE_AT_FOURTH: u32 = 3u;
-const ENERGY_CHANGE: u32 = 4u;
-const ENERGY_SIZE: u32 = 4u;
+fn into_energy_change(term: wide) {}
+fn into_energy_size(term: wide) {}
 // Constant tension up to about the range, then linear to zero over the width `taper` centred on it.
 fn law_traction(gap_here: real) -> real {
     let peak = law_factor * real(params.law_peak);
@@ -277,19 +332,19 @@ fn net_traction(here: Here) -> real {
 // Change of the traction along a step at each length tried.
 fn changes(gap: real, step: real) {
     let s = wide(step);
-    add_sum(CHANGE_AT_FIRST, wide(change(gap, real(scalars.tried[0]) * step)) * s);
-    add_sum(CHANGE_AT_SECOND, wide(change(gap, real(scalars.tried[1]) * step)) * s);
-    add_sum(CHANGE_AT_THIRD, wide(change(gap, real(scalars.tried[2]) * step)) * s);
-    add_sum(CHANGE_AT_FOURTH, wide(change(gap, real(scalars.tried[3]) * step)) * s);
+    into_change_at_first(wide(change(gap, real(scalars.tried[0]) * step)) * s);
+    into_change_at_second(wide(change(gap, real(scalars.tried[1]) * step)) * s);
+    into_change_at_third(wide(change(gap, real(scalars.tried[2]) * step)) * s);
+    into_change_at_fourth(wide(change(gap, real(scalars.tried[3]) * step)) * s);
 }
 
 // Change of traction and energy of a smooth law.
 fn energies(gap: real, step: real) {
     let moved = real(scalars.step) * step;
     let energy = energy_change(gap, moved);
-    add_sum(CHANGE_AT_FIRST, wide(change(gap, moved)) * wide(step));
-    add_sum(ENERGY_CHANGE, wide(energy.x));
-    add_sum(ENERGY_SIZE, wide(energy.y));
+    into_change_at_first(wide(change(gap, moved)) * wide(step));
+    into_energy_change(wide(energy.x));
+    into_energy_size(wide(energy.y));
 }
 
 // What the step lengths that one pass tries change of the traction, of a smooth law of the energy.

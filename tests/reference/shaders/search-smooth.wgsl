@@ -2,31 +2,78 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 4u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 256u;
-const GROUP_HALF: u32 = 128u;
-const SUMS_AT_ONCE: u32 = 3u;
-const GROUP_VALUES: u32 = 768u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_change_at_first: part;
+fn into_change_at_first(term: wide) { sum_change_at_first = add(sum_change_at_first, term); }
+var<private> sum_energy_change: part;
+fn into_energy_change(term: wide) { sum_energy_change = add(sum_energy_change, term); }
+var<private> sum_energy_size: part;
+fn into_energy_size(term: wide) { sum_energy_size = add(sum_energy_size, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = wide(0.0);
+sum_change_at_first = part_of(wide(0.0));
+sum_energy_change = part_of(wide(0.0));
+sum_energy_size = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 768>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 3u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 3u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_change_at_first;
+group_values[256u + thread] = sum_energy_change;
+group_values[512u + thread] = sum_energy_size;
+workgroupBarrier();
+if (thread < 128u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[128u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[384u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[640u + thread]);
 }
+workgroupBarrier();
+if (thread < 64u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[64u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[320u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[576u + thread]);
+}
+workgroupBarrier();
+if (thread < 32u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[32u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[288u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[544u + thread]);
+}
+workgroupBarrier();
+if (thread < 16u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[16u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[272u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[528u + thread]);
+}
+workgroupBarrier();
+if (thread < 8u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[8u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[264u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[520u + thread]);
+}
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[260u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[516u + thread]);
+}
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[258u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[514u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[256u + thread] = join_add(group_values[256u + thread], group_values[257u + thread]);
+group_values[512u + thread] = join_add(group_values[512u + thread], group_values[513u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[256u];
+partials.values[2u + group] = group_values[512u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -45,12 +92,9 @@ fn read_direction(index: u32) -> real { return 0.0; }
 fn write_direction(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
-const CHANGE_AT_FIRST: u32 = 0u;
-const CHANGE_AT_SECOND: u32 = 3u;
-const CHANGE_AT_THIRD: u32 = 3u;
-const CHANGE_AT_FOURTH: u32 = 3u;
-const ENERGY_CHANGE: u32 = 1u;
-const ENERGY_SIZE: u32 = 2u;
+fn into_change_at_second(term: wide) {}
+fn into_change_at_third(term: wide) {}
+fn into_change_at_fourth(term: wide) {}
 // The 9-3 law: sigma = (8 w / 3 eps) (r^3 - r^9) with r = eps / (gap + eps).
 
 // Nearer than this share of the range r^9 would overflow what any load can balance.
@@ -333,19 +377,19 @@ fn net_traction(here: Here) -> real {
 // Change of the traction along a step at each length tried.
 fn changes(gap: real, step: real) {
     let s = wide(step);
-    add_sum(CHANGE_AT_FIRST, wide(change(gap, real(scalars.tried[0]) * step)) * s);
-    add_sum(CHANGE_AT_SECOND, wide(change(gap, real(scalars.tried[1]) * step)) * s);
-    add_sum(CHANGE_AT_THIRD, wide(change(gap, real(scalars.tried[2]) * step)) * s);
-    add_sum(CHANGE_AT_FOURTH, wide(change(gap, real(scalars.tried[3]) * step)) * s);
+    into_change_at_first(wide(change(gap, real(scalars.tried[0]) * step)) * s);
+    into_change_at_second(wide(change(gap, real(scalars.tried[1]) * step)) * s);
+    into_change_at_third(wide(change(gap, real(scalars.tried[2]) * step)) * s);
+    into_change_at_fourth(wide(change(gap, real(scalars.tried[3]) * step)) * s);
 }
 
 // Change of traction and energy of a smooth law.
 fn energies(gap: real, step: real) {
     let moved = real(scalars.step) * step;
     let energy = energy_change(gap, moved);
-    add_sum(CHANGE_AT_FIRST, wide(change(gap, moved)) * wide(step));
-    add_sum(ENERGY_CHANGE, wide(energy.x));
-    add_sum(ENERGY_SIZE, wide(energy.y));
+    into_change_at_first(wide(change(gap, moved)) * wide(step));
+    into_energy_change(wide(energy.x));
+    into_energy_size(wide(energy.y));
 }
 
 // What the step lengths that one pass tries change of the traction, of a smooth law of the energy.

@@ -2,41 +2,96 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 10u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
-const SUMS_AT_ONCE: u32 = 9u;
-const GROUP_VALUES: u32 = 72u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-case 1u: { return join_min(a, b); }
-case 2u: { return join_max(a, b); }
-case 3u: { return join_min(a, b); }
-case 4u: { return join_max(a, b); }
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_slope: part;
+fn into_slope(term: wide) { sum_slope = add(sum_slope, term); }
+var<private> sum_first_touch: part;
+fn into_first_touch(term: wide) { sum_first_touch = least(sum_first_touch, term); }
+var<private> sum_largest_step: part;
+fn into_largest_step(term: wide) { sum_largest_step = most(sum_largest_step, term); }
+var<private> sum_least_step: part;
+fn into_least_step(term: wide) { sum_least_step = least(sum_least_step, term); }
+var<private> sum_cut: part;
+fn into_cut(term: wide) { sum_cut = most(sum_cut, term); }
+var<private> sum_elastic_slope: part;
+fn into_elastic_slope(term: wide) { sum_elastic_slope = add(sum_elastic_slope, term); }
+var<private> sum_change_at_first: part;
+fn into_change_at_first(term: wide) { sum_change_at_first = add(sum_change_at_first, term); }
+var<private> sum_energy_change: part;
+fn into_energy_change(term: wide) { sum_energy_change = add(sum_energy_change, term); }
+var<private> sum_energy_size: part;
+fn into_energy_size(term: wide) { sum_energy_size = add(sum_energy_size, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = params.infinity;
-sums[2] = -params.infinity;
-sums[3] = params.infinity;
-sums[4] = -params.infinity;
-sums[5] = wide(0.0);
-sums[6] = wide(0.0);
-sums[7] = wide(0.0);
-sums[8] = wide(0.0);
+sum_slope = part_of(wide(0.0));
+sum_first_touch = part_of(params.infinity);
+sum_largest_step = part_of(-params.infinity);
+sum_least_step = part_of(params.infinity);
+sum_cut = part_of(-params.infinity);
+sum_elastic_slope = part_of(wide(0.0));
+sum_change_at_first = part_of(wide(0.0));
+sum_energy_change = part_of(wide(0.0));
+sum_energy_size = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 72>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 9u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 9u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_slope;
+group_values[8u + thread] = sum_first_touch;
+group_values[16u + thread] = sum_largest_step;
+group_values[24u + thread] = sum_least_step;
+group_values[32u + thread] = sum_cut;
+group_values[40u + thread] = sum_elastic_slope;
+group_values[48u + thread] = sum_change_at_first;
+group_values[56u + thread] = sum_energy_change;
+group_values[64u + thread] = sum_energy_size;
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[8u + thread] = join_min(group_values[8u + thread], group_values[12u + thread]);
+group_values[16u + thread] = join_max(group_values[16u + thread], group_values[20u + thread]);
+group_values[24u + thread] = join_min(group_values[24u + thread], group_values[28u + thread]);
+group_values[32u + thread] = join_max(group_values[32u + thread], group_values[36u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[44u + thread]);
+group_values[48u + thread] = join_add(group_values[48u + thread], group_values[52u + thread]);
+group_values[56u + thread] = join_add(group_values[56u + thread], group_values[60u + thread]);
+group_values[64u + thread] = join_add(group_values[64u + thread], group_values[68u + thread]);
 }
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[8u + thread] = join_min(group_values[8u + thread], group_values[10u + thread]);
+group_values[16u + thread] = join_max(group_values[16u + thread], group_values[18u + thread]);
+group_values[24u + thread] = join_min(group_values[24u + thread], group_values[26u + thread]);
+group_values[32u + thread] = join_max(group_values[32u + thread], group_values[34u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[42u + thread]);
+group_values[48u + thread] = join_add(group_values[48u + thread], group_values[50u + thread]);
+group_values[56u + thread] = join_add(group_values[56u + thread], group_values[58u + thread]);
+group_values[64u + thread] = join_add(group_values[64u + thread], group_values[66u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[8u + thread] = join_min(group_values[8u + thread], group_values[9u + thread]);
+group_values[16u + thread] = join_max(group_values[16u + thread], group_values[17u + thread]);
+group_values[24u + thread] = join_min(group_values[24u + thread], group_values[25u + thread]);
+group_values[32u + thread] = join_max(group_values[32u + thread], group_values[33u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[41u + thread]);
+group_values[48u + thread] = join_add(group_values[48u + thread], group_values[49u + thread]);
+group_values[56u + thread] = join_add(group_values[56u + thread], group_values[57u + thread]);
+group_values[64u + thread] = join_add(group_values[64u + thread], group_values[65u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[8u];
+partials.values[2u + group] = group_values[16u];
+partials.values[3u + group] = group_values[24u];
+partials.values[4u + group] = group_values[32u];
+partials.values[5u + group] = group_values[40u];
+partials.values[6u + group] = group_values[48u];
+partials.values[7u + group] = group_values[56u];
+partials.values[8u + group] = group_values[64u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -60,21 +115,12 @@ fn write_heights_pressure(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 const LINEAR: bool = false;
-const SLOPE: u32 = 0u;
-const FIRST_TOUCH: u32 = 1u;
-const LARGEST_STEP: u32 = 2u;
-const LEAST_STEP: u32 = 3u;
-const CUT: u32 = 4u;
-const ELASTIC_SLOPE: u32 = 5u;
-const CLOSING: u32 = 9u;
-const STEP_SUM: u32 = 9u;
-const GAP_SUM: u32 = 9u;
-const GAP_SLOPE: u32 = 9u;
-const STEP_GAP_CURVATURE: u32 = 9u;
-const GAP_CURVATURE: u32 = 9u;
-const CHANGE_AT_FIRST: u32 = 6u;
-const ENERGY_CHANGE: u32 = 7u;
-const ENERGY_SIZE: u32 = 8u;
+fn into_closing(term: wide) {}
+fn into_step_sum(term: wide) {}
+fn into_gap_sum(term: wide) {}
+fn into_gap_slope(term: wide) {}
+fn into_step_gap_curvature(term: wide) {}
+fn into_gap_curvature(term: wide) {}
 // The 9-3 law: sigma = (8 w / 3 eps) (r^3 - r^9) with r = eps / (gap + eps).
 
 // Nearer than this share of the range r^9 would overflow what any load can balance.
@@ -372,43 +418,43 @@ fn step_at(here: Here, moved: real, correction: real, in_domain: bool) -> Tried 
 // The terms of a trial step. Twins: kernel/trial.rs.
 fn trial_terms(tried: Tried, here: Here, in_domain: bool) {
     let s = wide(tried.step);
-    add_sum(SLOPE, s * wide(here.y));
+    into_slope(s * wide(here.y));
     if (in_domain && touches(here.open, tried.step)) {
-        least(FIRST_TOUCH, wide(here.open) / -s);
+        into_first_touch(wide(here.open) / -s);
     }
-    most(LARGEST_STEP, s);
-    least(LEAST_STEP, s);
-    most(CUT, select(wide(0.0), wide(1.0), tried.cut));
+    into_largest_step(s);
+    into_least_step(s);
+    into_cut(select(wide(0.0), wide(1.0), tried.cut));
 }
 
 // What a smooth law's trial asks besides: step length 1, as a search would evaluate it.
 fn smooth_trial_terms(here: Here, step: real, in_domain: bool) {
     let s = wide(step);
-    add_sum(ELASTIC_SLOPE, s * wide(here.elastic));
+    into_elastic_slope(s * wide(here.elastic));
     if (!in_domain) {
         return;
     }
     let energy = energy_change(here.gap, step);
-    add_sum(CHANGE_AT_FIRST, wide(change(here.gap, step)) * s);
-    add_sum(ENERGY_CHANGE, wide(energy.x));
-    add_sum(ENERGY_SIZE, wide(energy.y));
+    into_change_at_first(wide(change(here.gap, step)) * s);
+    into_energy_change(wide(energy.x));
+    into_energy_size(wide(energy.y));
 }
 // The terms of a trial s0 before the mean gap is restored; `bent` is K g. Twins: kernel/trial.rs.
 fn linear_trial_terms(tried: Tried, here: Here, bent: real) {
     let s = wide(tried.step);
     let g = wide(here.open);
-    add_sum(SLOPE, s * wide(here.y));
+    into_slope(s * wide(here.y));
     if (here.open > 0.0) {
-        most(CLOSING, wide(-tried.step / here.open));
+        into_closing(wide(-tried.step / here.open));
     }
-    most(LARGEST_STEP, s);
-    least(LEAST_STEP, s);
-    most(CUT, select(wide(0.0), wide(1.0), tried.cut));
-    add_sum(STEP_SUM, s);
-    add_sum(GAP_SUM, g);
-    add_sum(GAP_SLOPE, g * wide(here.y));
-    add_sum(STEP_GAP_CURVATURE, s * wide(bent));
-    add_sum(GAP_CURVATURE, g * wide(bent));
+    into_largest_step(s);
+    into_least_step(s);
+    into_cut(select(wide(0.0), wide(1.0), tried.cut));
+    into_step_sum(s);
+    into_gap_sum(g);
+    into_gap_slope(g * wide(here.y));
+    into_step_gap_curvature(s * wide(bent));
+    into_gap_curvature(g * wide(bent));
 }
 // Turns the direction by the retained rows of z and fills the rows of a transform with the trial step.
 fn at(index: u32, in_domain: bool, line: real) -> real {

@@ -2,35 +2,72 @@ alias real = f32;
 // declarations.wgsl
 // common.wgsl
 @group(0) @binding(1) var<storage, read> scalars: Scalars;
-const SUM_COUNT: u32 = 7u;
-var<private> sums: array<wide, SUM_COUNT>;
 // gate.wgsl
 // sums.wgsl
-const GROUP_THREADS: u32 = 8u;
-const GROUP_HALF: u32 = 4u;
-const SUMS_AT_ONCE: u32 = 6u;
-const GROUP_VALUES: u32 = 48u;
 // reduce.wgsl
-fn join_slot(slot: u32, a: part, b: part) -> part {
-switch slot {
-case 2u: { return join_min(a, b); }
-default: { return join_add(a, b); }
-}
-}
+var<private> sum_violation: part;
+fn into_violation(term: wide) { sum_violation = add(sum_violation, term); }
+var<private> sum_pressures: part;
+fn into_pressures(term: wide) { sum_pressures = add(sum_pressures, term); }
+var<private> sum_least_gap: part;
+fn into_least_gap(term: wide) { sum_least_gap = least(sum_least_gap, term); }
+var<private> sum_gap_squares: part;
+fn into_gap_squares(term: wide) { sum_gap_squares = add(sum_gap_squares, term); }
+var<private> sum_direction_change: part;
+fn into_direction_change(term: wide) { sum_direction_change = add(sum_direction_change, term); }
+var<private> sum_direction_residual: part;
+fn into_direction_residual(term: wide) { sum_direction_residual = add(sum_direction_residual, term); }
 fn start_sums() {
-sums[0] = wide(0.0);
-sums[1] = wide(0.0);
-sums[2] = params.infinity;
-sums[3] = wide(0.0);
-sums[4] = wide(0.0);
-sums[5] = wide(0.0);
+sum_violation = part_of(wide(0.0));
+sum_pressures = part_of(wide(0.0));
+sum_least_gap = part_of(params.infinity);
+sum_gap_squares = part_of(wide(0.0));
+sum_direction_change = part_of(wide(0.0));
+sum_direction_residual = part_of(wide(0.0));
 }
+var<workgroup> group_values: array<part, 48>;
 fn hand_in(group: u32, thread: u32) {
-for (var first = 0u; first < 6u; first = first + SUMS_AT_ONCE) {
-gather(first, thread);
-if (thread < SUMS_AT_ONCE && first + thread < 6u) {
-partials.values[0u + (first + thread) * 1u + group] = group_values[thread * GROUP_THREADS];
+group_values[0u + thread] = sum_violation;
+group_values[8u + thread] = sum_pressures;
+group_values[16u + thread] = sum_least_gap;
+group_values[24u + thread] = sum_gap_squares;
+group_values[32u + thread] = sum_direction_change;
+group_values[40u + thread] = sum_direction_residual;
+workgroupBarrier();
+if (thread < 4u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[4u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[12u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[20u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[28u + thread]);
+group_values[32u + thread] = join_add(group_values[32u + thread], group_values[36u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[44u + thread]);
 }
+workgroupBarrier();
+if (thread < 2u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[2u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[10u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[18u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[26u + thread]);
+group_values[32u + thread] = join_add(group_values[32u + thread], group_values[34u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[42u + thread]);
+}
+workgroupBarrier();
+if (thread < 1u) {
+group_values[0u + thread] = join_add(group_values[0u + thread], group_values[1u + thread]);
+group_values[8u + thread] = join_add(group_values[8u + thread], group_values[9u + thread]);
+group_values[16u + thread] = join_min(group_values[16u + thread], group_values[17u + thread]);
+group_values[24u + thread] = join_add(group_values[24u + thread], group_values[25u + thread]);
+group_values[32u + thread] = join_add(group_values[32u + thread], group_values[33u + thread]);
+group_values[40u + thread] = join_add(group_values[40u + thread], group_values[41u + thread]);
+}
+workgroupBarrier();
+if (thread == 0u) {
+partials.values[0u + group] = group_values[0u];
+partials.values[1u + group] = group_values[8u];
+partials.values[2u + group] = group_values[16u];
+partials.values[3u + group] = group_values[24u];
+partials.values[4u + group] = group_values[32u];
+partials.values[5u + group] = group_values[40u];
 }
 }
 fn row_of(index: u32) -> u32 {
@@ -58,12 +95,6 @@ fn write_step(index: u32, value: real) {}
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 const STORED: bool = true;
-const VIOLATION: u32 = 0u;
-const PRESSURES: u32 = 1u;
-const LEAST_GAP: u32 = 2u;
-const GAP_SQUARES: u32 = 3u;
-const DIRECTION_CHANGE: u32 = 4u;
-const DIRECTION_RESIDUAL: u32 = 5u;
 // exp in single precision, where the device has it.
 fn exponential(x: f32) -> f32 {
     return exp(x);
@@ -306,17 +337,17 @@ fn step_from(gap: real, pressure: real, moved: real, answer: real, in_domain: bo
 // Twins: kernel/measure.rs.
 fn residual_terms(here: Here, in_domain: bool) {
     if (!in_domain) {
-        add_sum(VIOLATION, wide(here.y) * wide(here.y));
+        into_violation(wide(here.y) * wide(here.y));
         return;
     }
     let found = violation(here);
     let off = wide(found.violation);
     let pressed = wide(weighed(found.reaction));
     let pulled = wide(weighed(found.traction));
-    add_sum(VIOLATION, off * off);
-    add_sum(PRESSURES, (pressed * pressed + pulled * pulled));
-    least(LEAST_GAP, wide(here.open));
-    add_sum(GAP_SQUARES, wide(here.gap) * wide(here.gap));
+    into_violation(off * off);
+    into_pressures((pressed * pressed + pulled * pulled));
+    into_least_gap(wide(here.open));
+    into_gap_squares(wide(here.gap) * wide(here.gap));
 }
 // Takes K s and steps, g += t s, p += t K s; then fills the rows of a transform with the new projected residual.
 fn at(index: u32, in_domain: bool, line: real) -> real {
@@ -331,8 +362,8 @@ fn at(index: u32, in_domain: bool, line: real) -> real {
     let here = here_at(moved.gap, moved.pressure + real(scalars.mean_pressure), in_domain);
     residual_terms(here, in_domain);
     let residual = projected_residual(here);
-    add_sum(DIRECTION_CHANGE, wide(direction) * (wide(residual) - wide(previous)));
-    add_sum(DIRECTION_RESIDUAL, wide(direction) * wide(residual));
+    into_direction_change(wide(direction) * (wide(residual) - wide(previous)));
+    into_direction_residual(wide(direction) * wide(residual));
     write_projected_residual(index, residual);
     return residual;
 }

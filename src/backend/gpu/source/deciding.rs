@@ -6,8 +6,9 @@ use super::super::catalogue;
 use super::super::error::GpuError;
 use super::super::layout::Wide;
 use super::super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
-use super::{gate_name, preamble, reduction};
-use crate::kernel::{Gate, Reduce, SUMS, ScalarKernel, Sum};
+use super::sums::{self, Summed, Team};
+use super::{gate_name, preamble};
+use crate::kernel::{Gate, Reduce, ScalarKernel, Sum};
 
 /// Where a reduction's results go.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,11 +63,7 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
             Decision::Scalar(_) => None,
         })
         .collect();
-    let reduces: Vec<Reduce> = reductions
-        .iter()
-        .flat_map(|reduction| reduction.results.reduces())
-        .collect();
-    preamble(&mut source, wide, "read_write", reduces.len().max(1));
+    preamble(&mut source, wide, "read_write");
     let mut shaders: Vec<&str> = Vec::new();
     for part in parts {
         let Decision::Scalar(kernel) = part else {
@@ -83,7 +80,7 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
     let threads = match reductions.is_empty() {
         true => 1,
         false => {
-            put_together(&mut source, &reductions, &reduces);
+            put_together(&mut source, &reductions);
             SWEEP_THREADS
         }
     };
@@ -125,48 +122,57 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
     Ok(source)
 }
 
-/// Writes the function that adds up partial sums, slot by slot of all reductions.
-fn put_together(source: &mut String, reductions: &[Reduction], reduces: &[Reduce]) {
-    let count = reduces.len();
-    let at_once = SWEEP_SUMS_AT_ONCE.min(count);
-    reduction(source, reduces, SWEEP_THREADS, at_once);
+/// Writes the function that adds up partial sums. Those of a reduction are read side by side, so that they do not
+/// wait for one another.
+fn put_together(source: &mut String, reductions: &[Reduction]) {
+    let reduces = reductions.iter().flat_map(|what| what.results.reduces());
+    let sums: Vec<Summed> = reduces
+        .enumerate()
+        .map(|(slot, reduce)| Summed::new(slot.to_string(), reduce))
+        .collect();
+    let team = Team {
+        threads: SWEEP_THREADS,
+        at_once: SWEEP_SUMS_AT_ONCE.min(sums.len()),
+    };
+    sums::declare(source, &sums);
+    sums::memory(source, team);
     let _ = write!(
         source,
-        "var<workgroup> totals: array<wide, {count}>;\n\
+        "var<workgroup> totals: array<wide, {}>;\n\
          fn put_together(thread: u32) {{\n\
-         start_sums();\n"
+         start_sums();\n",
+        sums.len()
     );
-    let mut slot = 0;
+    let mut rest = &sums[..];
     for what in reductions {
-        let (groups, of) = (what.groups, what.results.reduces().len());
-        let _ = write!(
+        let (own, after) = rest.split_at(what.results.reduces().len());
+        let (groups, first) = (what.groups, what.first);
+        let _ = writeln!(
             source,
-            "for (var slot = 0u; slot < {of}u; slot = slot + 1u) {{\n\
-             var total = part_of({slot}u + slot);\n\
-             for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{\n\
-             total = join_slot({slot}u + slot, total, partials.values[{first}u + slot * {groups}u + group]);\n\
-             }}\n\
-             set_part({slot}u + slot, total);\n\
-             }}\n",
-            first = what.first,
+            "for (var group = thread; group < {groups}u; group = group + {SWEEP_THREADS}u) {{"
         );
-        slot += of;
+        for (slot, sum) in own.iter().enumerate() {
+            let _ = writeln!(
+                source,
+                "sum_{name} = {join}(sum_{name}, partials.values[{place}u + group]);",
+                name = sum.name,
+                join = sum.parts_joined(),
+                place = first + slot * groups,
+            );
+        }
+        source.push_str("}\n");
+        rest = after;
     }
-    let _ = write!(
-        source,
-        "for (var first = 0u; first < {count}u; first = first + SUMS_AT_ONCE) {{\n\
-         gather(first, thread);\n\
-         if (thread < SUMS_AT_ONCE && first + thread < {count}u) {{\n\
-         totals[first + thread] = part_value(group_values[thread * GROUP_THREADS]);\n\
-         }}\n}}\n\
-         workgroupBarrier();\n}}\n",
-    );
+    sums::join(source, &sums, team, |slot, value| {
+        format!("totals[{slot}] = part_value({value});\n")
+    });
+    source.push_str("workgroupBarrier();\n}\n");
 }
 
 /// Compensated sums of 64 pairs, to test whether they survive the compiler. The entry point is `check`.
 pub fn two_sums() -> String {
     let mut source = String::new();
-    preamble(&mut source, Wide::Compensated, "read", SUMS);
+    preamble(&mut source, Wide::Compensated, "read");
     let _ = writeln!(
         source,
         "@group(1) @binding(0) var<storage, read> pairs: array<vec2<f32>>;\n\

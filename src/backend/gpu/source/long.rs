@@ -9,11 +9,11 @@ use super::super::butterfly::{Direction, literal};
 use super::super::catalogue;
 use super::super::fft::LineWriter;
 use super::super::layout::Wide;
-use super::super::level::{LevelPlan, Place};
+use super::super::level::LevelPlan;
 use super::super::plan::LinePlan;
 use super::slabs::{self, Work, after_turns, first_turn};
-use super::{FactorSource, ends, gate_name, hand_in, preamble, reduction};
-use crate::kernel::{Gate, Reduce, SUMS};
+use super::{FactorSource, curvature, ends, gate_name, preamble};
+use crate::kernel::Gate;
 
 /// The three passes over long columns.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +114,7 @@ pub fn rows_then(plan: &LevelPlan, direction: Direction, gate: Gate, wide: Wide)
     let then = plan.rows_then.as_ref()?;
     let (pairs, length) = (plan.slab_pairs(), then.length);
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read", SUMS);
+    preamble(&mut source, wide, "read");
     slabs::declare_turn(&mut source, plan);
     source.push_str(&LineWriter::declarations(then));
     source.push_str(catalogue::FFT);
@@ -205,13 +205,10 @@ pub fn multiply_long(
     let pairs = plan.pairs();
     let work = Work::new(plan);
     let mut source = plan.number.declaration();
-    preamble(&mut source, wide, "read", SUMS);
+    preamble(&mut source, wide, "read");
     slabs::declare_turn(&mut source, plan);
     if energy {
-        reduction(&mut source, &[Reduce::Add], line.group_threads(), 1);
-        let groups = [plan.parts, plan.part_groups()];
-        let first = plan.first_partial(Place::Columns);
-        hand_in(&mut source, &[Reduce::Add], groups, first);
+        curvature(&mut source, plan, line);
     }
     source.push_str(&LineWriter::declarations(line));
     source.push_str(catalogue::FFT);
@@ -369,7 +366,7 @@ fn middle(source: &mut String, plan: &LevelPlan, then: &LinePlan, inside: &str, 
             if energy {
                 let _ = writeln!(
                     source,
-                    "add_sum(0u, wide(weight * factor * dot({name}, {name})));"
+                    "into_curvature(wide(weight * factor * dot({name}, {name})));"
                 );
             }
             let _ = writeln!(source, "{name} = ({scale} * factor) * {name}; }}");

@@ -11,7 +11,7 @@ use crate::kernel::declare::{DeviceValue, Kind, members};
 /// `copy_members`. Also says how many words there are.
 pub fn copy_members(wide: Wide) -> (String, usize) {
     let mut source = String::new();
-    preamble(&mut source, wide, "read", 1);
+    preamble(&mut source, wide, "read");
     source.push_str(
         "@group(1) @binding(0) var<storage, read_write> found: array<wide>;\n\
          @compute @workgroup_size(1)\n\
