@@ -6,12 +6,12 @@
 //! since an array with a computed index would leave the registers.
 //!
 //! The code refers to `thread` and `line` (this thread's place in its line, and the line's place in
-//! the workgroup), `exchange` (workgroup memory) and `roots` (`exp(-2 pi i m / n)`, a table).
+//! the workgroup), `exchange` (workgroup memory) and `roots` (the table of [`roots`](super::plan::roots)).
 
 use std::fmt::Write;
 
 use super::butterfly::{Direction, butterfly};
-use super::plan::{Exchange, LinePlan};
+use super::plan::{Exchange, LinePlan, Stage};
 
 /// Writes the transforms of one line length.
 pub struct LineWriter<'a> {
@@ -124,43 +124,40 @@ impl<'a> LineWriter<'a> {
 
     /// Transforms the line that the variables hold, first stage's places to last stage's places.
     pub fn transform(&mut self, direction: Direction) {
-        let mut radices = self.plan.radices.clone();
-        if direction == Direction::Inverse {
-            radices.reverse();
-        }
-        let mut before = 1;
-        for (stage, &radix) in radices.iter().enumerate() {
-            self.stage(direction, radix, before);
-            if let Some(&next) = radices.get(stage + 1) {
-                match self.plan.exchange {
-                    Exchange::Whole => self.pass(radix, before, next, ""),
-                    Exchange::Split => {
-                        self.pass(radix, before, next, ".x");
-                        self.pass(radix, before, next, ".y");
-                    }
-                    Exchange::Rounds(rounds) => {
-                        self.pass_in_rounds(radix, before, next, ".x", rounds);
-                        self.pass_in_rounds(radix, before, next, ".y", rounds);
-                    }
+        let stages = self.plan.stages(direction);
+        for (place, stage) in stages.iter().enumerate() {
+            self.stage(direction, stage);
+            let Some(next) = stages.get(place + 1) else {
+                return;
+            };
+            let (radix, before, next) = (stage.radix, stage.before, next.radix);
+            match self.plan.exchange {
+                Exchange::Whole => self.pass(radix, before, next, ""),
+                Exchange::Split => {
+                    self.pass(radix, before, next, ".x");
+                    self.pass(radix, before, next, ".y");
+                }
+                Exchange::Rounds(rounds) => {
+                    self.pass_in_rounds(radix, before, next, ".x", rounds);
+                    self.pass_in_rounds(radix, before, next, ".y", rounds);
                 }
             }
-            before *= radix;
         }
     }
 
-    /// The butterflies of a stage; `before` is the product of the radices before it.
-    fn stage(&mut self, direction: Direction, radix: usize, before: usize) {
+    /// The butterflies of a stage.
+    fn stage(&mut self, direction: Direction, stage: &Stage) {
         let turn = match direction {
             Direction::Forward => "turn",
             Direction::Inverse => "turn_back",
         };
-        let fold = self.plan.roots / (before * radix);
+        let (radix, before) = (stage.radix, stage.before);
         self.butterflies(radix, |source, each| {
             if before > 1 {
-                let _ = writeln!(source, "let root = (j % {before}u) * {fold}u;");
+                let _ = writeln!(source, "let root = j % {before}u;");
                 for leg in 1..radix {
-                    let name = each.name(leg);
-                    let _ = writeln!(source, "{name} = {turn}({name}, roots[root * {leg}u]);");
+                    let (name, first) = (each.name(leg), stage.leg_at(leg));
+                    let _ = writeln!(source, "{name} = {turn}({name}, roots[{first}u + root]);");
                 }
             }
             let names: Vec<String> = (0..radix).map(|leg| each.name(leg)).collect();

@@ -47,7 +47,9 @@ fn plans(
     shares.into_iter().find_map(|(first, then)| {
         let [many, many_then] = counts(first, then);
         let plan = |part, count| LinePlan::part(part, length, count, limits, number);
-        Some((plan(first, many)?, Some(plan(then, many_then)?)))
+        let (first, mut then) = (plan(first, many)?, plan(then, many_then)?);
+        then.roots_at = first.roots_end();
+        Some((first, Some(then)))
     })
 }
 

@@ -35,7 +35,6 @@ mod timing;
 mod traffic;
 
 use std::collections::HashMap;
-use std::f64::consts::TAU;
 
 use super::cpu;
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values};
@@ -72,7 +71,8 @@ pub struct GpuBackend {
     levels: Vec<Option<LevelSpace>>,
     fields: Vec<Option<FieldSpace>>,
     spectra: Vec<Option<SpectrumSpace>>,
-    roots: HashMap<usize, wgpu::Buffer>,
+    /// By the points of a line and of its first pass.
+    roots: HashMap<[usize; 2], wgpu::Buffer>,
     prepared: HashMap<Key, Vec<Prepared>>,
     /// Sums and scalar kernels to run after the last field kernel, in one dispatch.
     deciding: Deciding,
@@ -215,21 +215,22 @@ impl GpuBackend {
         }
     }
 
-    /// A table of the roots of unity `exp(-2 pi i m / n)`, computed in double precision.
-    fn roots(&mut self, length: usize) -> Result<wgpu::Buffer, GpuError> {
-        if let Some(buffer) = self.roots.get(&length) {
+    /// The table of roots of unity of a line's passes.
+    fn roots(
+        &mut self,
+        first: &LinePlan,
+        then: Option<&LinePlan>,
+    ) -> Result<wgpu::Buffer, GpuError> {
+        let key = [first.whole, first.length];
+        if let Some(buffer) = self.roots.get(&key) {
             return Ok(buffer.clone());
         }
-        let buffer = self.storage("roots", 2 * self.number.bytes() * length)?;
-        let values: Vec<f64> = (0..length)
-            .flat_map(|m| {
-                let angle = TAU * m as f64 / length as f64;
-                [angle.cos(), -angle.sin()]
-            })
-            .collect();
-        let number = self.number;
+        let (values, number) = (plan::roots(first, then), self.number);
+        // No transform of two points turns anything, but something is bound.
+        let count = values.len().max(2);
+        let buffer = self.storage("roots", number.bytes() * count)?;
         self.recorder.write_numbers(&buffer, 0, &values, number)?;
-        self.roots.insert(length, buffer.clone());
+        self.roots.insert(key, buffer.clone());
         Ok(buffer)
     }
 
@@ -303,8 +304,8 @@ impl Backend for GpuBackend {
             let plan = backend.plan(shape)?;
             let partials = 8 + plan.partials() * backend.wide.part_bytes();
             Ok(LevelSpace {
-                row_roots: backend.roots(plan.shape[0])?,
-                column_roots: backend.roots(plan.shape[1])?,
+                row_roots: backend.roots(&plan.rows, plan.rows_then.as_ref())?,
+                column_roots: backend.roots(&plan.columns, plan.columns_then.as_ref())?,
                 partials: backend.storage(name, partials)?,
                 // Half as many complex numbers as points.
                 work: backend.slabs(name, &plan)?,

@@ -1,6 +1,9 @@
 //! How a line is transformed by a workgroup: radices, threads, lines side by side, and how values
 //! pass between the threads.
 
+use std::f64::consts::TAU;
+
+use super::butterfly::Direction;
 use super::layout::Number;
 use crate::kernel::SUMS;
 
@@ -72,9 +75,62 @@ pub struct LinePlan {
     pub exchange: Exchange,
     /// Sums that the workgroup reduces together, in the memory that is left.
     pub sums_at_once: usize,
-    /// Points of the whole line of which this is a part, whose roots of unity are bound; where it is
-    /// no part, its own.
-    pub roots: usize,
+    /// Points of the whole line of which this is a part; where it is no part, its own.
+    pub whole: usize,
+    /// Where the roots of its stages begin in the table of roots.
+    pub roots_at: usize,
+}
+
+/// A stage of a transform.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Stage {
+    /// Values in a butterfly.
+    pub radix: usize,
+    /// Product of the radices before.
+    pub before: usize,
+    /// Where its roots begin in the table: those of leg 1 for each `j % before`, those of leg 2, and so on.
+    pub roots_at: usize,
+}
+
+impl Stage {
+    /// Roots of unity that it turns values by; none where it is the first.
+    fn roots(&self) -> usize {
+        match self.before {
+            1 => 0,
+            before => (self.radix - 1) * before,
+        }
+    }
+
+    /// Where the root of a leg begins in the table.
+    pub fn leg_at(&self, leg: usize) -> usize {
+        self.roots_at + (leg - 1) * self.before
+    }
+}
+
+/// The roots of unity that the passes over a line read, `exp(-2 pi i m / n)` of its points, real and imaginary parts one
+/// after another, computed in double precision: of a line in two passes all n of them, by which parts are turned; then
+/// those of each stage, side by side as neighbouring threads take them.
+pub fn roots(first: &LinePlan, then: Option<&LinePlan>) -> Vec<f64> {
+    let whole = first.whole;
+    let mut powers: Vec<usize> = match then {
+        Some(_) => (0..whole).collect(),
+        None => Vec::new(),
+    };
+    for plan in std::iter::once(first).chain(then) {
+        for direction in [Direction::Forward, Direction::Inverse] {
+            for stage in plan.stages(direction) {
+                debug_assert_eq!(stage.roots_at, powers.len());
+                let fold = whole / (stage.before * stage.radix);
+                let legs = 1..if stage.before > 1 { stage.radix } else { 1 };
+                powers.extend(legs.flat_map(|leg| (0..stage.before).map(move |j| j * fold * leg)));
+            }
+        }
+    }
+    let turns = powers.into_iter().flat_map(|power| {
+        let angle = TAU * power as f64 / whole as f64;
+        [angle.cos(), -angle.sin()]
+    });
+    turns.collect()
 }
 
 /// Radices of an even length whose prime factors are 2, 3, 5 and 7, powers of two first.
@@ -173,7 +229,8 @@ impl LinePlan {
         let left = (limits.memory - used) / (lines * threads * SUM_BYTES);
         Some(LinePlan {
             sums_at_once: left.min(SUMS),
-            roots: whole,
+            whole,
+            roots_at: if whole == length { 0 } else { whole },
             length,
             radices,
             threads,
@@ -189,6 +246,41 @@ impl LinePlan {
             .take_while(|&length| LinePlan::new(length, 1, limits, number).is_some())
             .last()
             .unwrap_or(0)
+    }
+
+    /// The stages of a transform, in order.
+    pub fn stages(&self, direction: Direction) -> Vec<Stage> {
+        let placed = |radices: &[usize], mut roots_at: usize| -> (Vec<Stage>, usize) {
+            let mut before = 1;
+            let stages = radices
+                .iter()
+                .map(|&radix| {
+                    let stage = Stage {
+                        radix,
+                        before,
+                        roots_at,
+                    };
+                    before *= radix;
+                    roots_at += stage.roots();
+                    stage
+                })
+                .collect();
+            (stages, roots_at)
+        };
+        let (stages, end) = placed(&self.radices, self.roots_at);
+        match direction {
+            Direction::Forward => stages,
+            Direction::Inverse => {
+                let reversed: Vec<usize> = self.radices.iter().rev().copied().collect();
+                placed(&reversed, end).0
+            }
+        }
+    }
+
+    /// The end of the roots of its stages in the table.
+    pub fn roots_end(&self) -> usize {
+        let last = self.stages(Direction::Inverse).pop();
+        last.map_or(self.roots_at, |stage| stage.roots_at + stage.roots())
     }
 
     /// Threads in a workgroup.

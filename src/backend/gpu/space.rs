@@ -14,9 +14,9 @@ pub struct LevelSpace {
     pub spare: Option<wgpu::Buffer>,
     /// The index of each slab or part of a spectrum; empty where there is one of each.
     pub turns: Vec<wgpu::Buffer>,
-    /// Roots of unity of nx.
+    /// Roots of unity of the rows' passes.
     pub row_roots: wgpu::Buffer,
-    /// Roots of unity of ny.
+    /// Roots of unity of the columns' passes.
     pub column_roots: wgpu::Buffer,
 }
 

@@ -360,10 +360,10 @@ v2 = exchange[((j + 4u)) * 4u + line];
 v3 = exchange[((j + 6u)) * 4u + line];
 }
 { let j = thread + 0u;
-let root = (j % 2u) * 1u;
-v1 = turn_back(v1, roots[root * 1u]);
-v2 = turn_back(v2, roots[root * 2u]);
-v3 = turn_back(v3, roots[root * 3u]);
+let root = j % 2u;
+v1 = turn_back(v1, roots[4u + root]);
+v2 = turn_back(v2, roots[6u + root]);
+v3 = turn_back(v3, roots[8u + root]);
 {
 let even_sum = v0 + v2;
 let even_difference = v0 - v2;

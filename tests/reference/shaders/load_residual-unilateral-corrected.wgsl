@@ -523,8 +523,8 @@ v2 = exchange[((j + 0u)) * 4u + line];
 v3 = exchange[((j + 4u)) * 4u + line];
 }
 { let j = thread + 0u;
-let root = (j % 4u) * 1u;
-v1 = turn(v1, roots[root * 1u]);
+let root = j % 4u;
+v1 = turn(v1, roots[0u + root]);
 {
 let sum = v0 + v1;
 v1 = v0 - v1;
@@ -532,8 +532,8 @@ v0 = sum;
 }
 }
 { let j = thread + 2u;
-let root = (j % 4u) * 1u;
-v3 = turn(v3, roots[root * 1u]);
+let root = j % 4u;
+v3 = turn(v3, roots[0u + root]);
 {
 let sum = v2 + v3;
 v3 = v2 - v3;

@@ -433,10 +433,10 @@ v2 = exchange[((j + 4u)) * 4u + line];
 v3 = exchange[((j + 6u)) * 4u + line];
 }
 { let j = thread + 0u;
-let root = (j % 2u) * 1u;
-v1 = turn_back(v1, roots[root * 1u]);
-v2 = turn_back(v2, roots[root * 2u]);
-v3 = turn_back(v3, roots[root * 3u]);
+let root = j % 2u;
+v1 = turn_back(v1, roots[4u + root]);
+v2 = turn_back(v2, roots[6u + root]);
+v3 = turn_back(v3, roots[8u + root]);
 {
 let even_sum = v0 + v2;
 let even_difference = v0 - v2;
@@ -496,8 +496,8 @@ v2 = exchange[((j + 0u)) * 4u + line];
 v3 = exchange[((j + 4u)) * 4u + line];
 }
 { let j = thread + 0u;
-let root = (j % 4u) * 1u;
-v1 = turn(v1, roots[root * 1u]);
+let root = j % 4u;
+v1 = turn(v1, roots[0u + root]);
 {
 let sum = v0 + v1;
 v1 = v0 - v1;
@@ -505,8 +505,8 @@ v0 = sum;
 }
 }
 { let j = thread + 2u;
-let root = (j % 4u) * 1u;
-v3 = turn(v3, roots[root * 1u]);
+let root = j % 4u;
+v3 = turn(v3, roots[0u + root]);
 {
 let sum = v2 + v3;
 v3 = v2 - v3;
