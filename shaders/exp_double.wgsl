@@ -50,9 +50,9 @@ fn exponential(x: f64) -> f64 {
     }
     // x = power ln 2 + rest with |rest| <= ln(2)/2.
     let power = floor(x * LOG_2_E + 0.5);
-    // The least of it and infinity is what it was, and keeps a compiler from multiplying by the sum of both parts.
-    let high = min(power * LN_2_HIGH, params.infinity);
-    let rest = (x - high) - power * LN_2_LOW;
+    // The least of it and infinity is what it was, and keeps a compiler from subtracting both parts as one.
+    let near = min(x - power * LN_2_HIGH, params.infinity);
+    let rest = near - power * LN_2_LOW;
     return (1.0 + exp_series(rest)) * power_of_two(i32(f32(power)));
 }
 

@@ -11,6 +11,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::backend::BackendError;
 use crate::scene::{RelaxationScene, Scene, SolidScene};
 use crate::solver::{ContactSolver, Problem};
@@ -245,9 +247,8 @@ impl Carry for History {
         let scales = problem.scales;
         let unit = scales.length * scales.pressure * problem.grid.pixel_area();
         let rigid = (evaluation.displacement_offset + problem.height_origin) / scales.length;
-        for (u, h) in displacement.iter_mut().zip(problem.padded_heights()) {
-            *u += h + rigid;
-        }
+        let points = displacement.par_iter_mut().zip(problem.padded_heights());
+        points.for_each(|(u, h)| *u += h + rigid);
         let depths = solver.plastic_depths().into_iter().flatten();
         for (u, depth) in displacement.iter_mut().zip(depths) {
             *u -= depth;

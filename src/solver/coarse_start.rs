@@ -1,8 +1,10 @@
 //! A start from coarser grids: each level is solved loosely and its displacement refined.
 
-use super::contact::{ContactSolver, Hold, Load, Start};
 use std::ops::Range;
 
+use rayon::prelude::*;
+
+use super::contact::{ContactSolver, Hold, Load, Start};
 use super::{MakeBackend, problem::Problem};
 use crate::backend::{Backend, BackendError};
 use crate::kernel::{Scalars, Status};
@@ -74,18 +76,18 @@ fn refine(
         }
     };
     drop((start, backend));
-    for (u, h) in displacement.iter_mut().zip(coarse.heights.iter()) {
-        *u += h;
-    }
+    let height_at = coarse.heights.by_point();
+    let points = displacement.par_iter_mut().enumerate();
+    points.for_each(|(point, u)| *u += height_at(point));
     let mut gap = refined(&displacement, &coarse, problem)?;
     drop(displacement);
-    for (g, h) in gap.iter_mut().zip(problem.heights.iter()) {
-        *g = (*g - h).max(0.0);
-    }
+    let height_at = problem.heights.by_point();
+    let points = gap.par_iter_mut().enumerate();
+    points.for_each(|(point, g)| *g = (*g - height_at(point)).max(0.0));
     if let Hold::Gap(target) = load.hold {
         let mean = problem.share.sum(&gap) / problem.shape.len() as f64;
         if mean > 0.0 {
-            gap.iter_mut().for_each(|g| *g *= target / mean);
+            gap.par_iter_mut().for_each(|g| *g *= target / mean);
         }
     }
     Ok(Some((gap, transforms / 4.0)))
@@ -156,12 +158,13 @@ fn refined(values: &[f64], coarse: &Problem, fine: &Problem) -> Result<Vec<f64>,
 
 /// Bilinear, between cell centres, these rows of twice the points; the grid wraps round.
 fn interpolate<'a>(
-    coarse: impl Fn(usize) -> &'a [f64],
+    coarse: impl Fn(usize) -> &'a [f64] + Sync,
     [nx, ny]: [usize; 2],
     rows: Range<usize>,
 ) -> Vec<f64> {
-    let mut fine = Vec::with_capacity(2 * nx * rows.len());
-    for y in rows {
+    let mut fine = vec![0.0; 2 * nx * rows.len()];
+    let lines = fine.par_chunks_exact_mut(2 * nx).zip(rows);
+    lines.for_each(|(line, y)| {
         let row = y / 2;
         let other = if y % 2 == 0 {
             (row + ny - 1) % ny
@@ -170,15 +173,15 @@ fn interpolate<'a>(
         };
         let (near, far) = (coarse(row), coarse(other));
         let at = |x: usize| 0.75 * near[x] + 0.25 * far[x];
-        for x in 0..2 * nx {
+        for (x, value) in line.iter_mut().enumerate() {
             let column = x / 2;
             let other = if x % 2 == 0 {
                 (column + nx - 1) % nx
             } else {
                 (column + 1) % nx
             };
-            fine.push(0.75 * at(column) + 0.25 * at(other));
+            *value = 0.75 * at(column) + 0.25 * at(other);
         }
-    }
+    });
     fine
 }

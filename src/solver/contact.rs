@@ -2,6 +2,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::MakeBackend;
 use super::borrowed::{BackendRef, ProblemRef};
 use super::coarse_start;
@@ -314,7 +316,8 @@ impl<'a> ContactSolver<'a> {
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a prescribed mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
-        let mut heights: Vec<f64> = self.problem.heights.iter().collect();
+        let points = (0..self.problem.heights.len()).into_par_iter();
+        let mut heights: Vec<f64> = points.map(self.problem.heights.by_point()).collect();
         if let Some(depths) = &self.plastic_depths {
             let depths = self.problem.surface_part(depths);
             heights
@@ -324,12 +327,12 @@ impl<'a> ContactSolver<'a> {
         }
         let highest = self.problem.share.greatest_of(&heights);
         let mut gap = heights;
-        gap.iter_mut().for_each(|h| *h = highest - *h);
+        gap.par_iter_mut().for_each(|h| *h = highest - *h);
         if let Hold::Gap(target) = load.hold {
             let sum = self.problem.share.surface_sum_by(&gap, |g| g);
             let mean = sum / self.problem.shape.surface_len() as f64;
             if target >= mean {
-                gap.iter_mut().for_each(|g| *g += target - mean);
+                gap.par_iter_mut().for_each(|g| *g += target - mean);
             } else if target <= 0.0
                 && (self.problem.hardness.is_some() || !self.problem.law.has_wall())
             {
@@ -337,7 +340,7 @@ impl<'a> ContactSolver<'a> {
                 // stand parallel where they repel.
                 gap.fill(target);
             } else {
-                gap.iter_mut().for_each(|g| *g *= target / mean);
+                gap.par_iter_mut().for_each(|g| *g *= target / mean);
             }
         }
         gap

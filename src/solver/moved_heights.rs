@@ -1,5 +1,7 @@
 //! The rigid heights of a solve: those of the problem as plastic indentation and the history of the solid have moved them.
 
+use rayon::prelude::*;
+
 use super::contact::ContactSolver;
 
 impl ContactSolver<'_> {

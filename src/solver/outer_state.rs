@@ -1,5 +1,7 @@
 //! The state of a contact in double precision, beside a solver whose iterations run in single.
 
+use rayon::prelude::*;
+
 use super::contact::{Hold, Load};
 use super::kernel_set::{KernelSet, params_of_problem};
 use super::mean_gap::HeightsPressure;

@@ -3,6 +3,8 @@
 
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 

@@ -3,6 +3,8 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use super::heights::Heights;
 use super::stiffness;
 use crate::backend::ranks::Ranks;
@@ -319,7 +321,8 @@ impl Problem {
             Some(heights) => heights[point],
         };
         let mut heights = vec![0.0; share.len()];
-        for (row, line) in heights.chunks_exact_mut(grid.nx).enumerate() {
+        let lines = heights.par_chunks_exact_mut(grid.nx).enumerate();
+        lines.for_each(|(row, line)| {
             for (column, height) in line.iter_mut().enumerate() {
                 let at = 2 * row * nx + 2 * column;
                 *height = 0.25
@@ -328,7 +331,7 @@ impl Problem {
                         + height_at(at + nx)
                         + height_at(at + nx + 1));
             }
-        }
+        });
         Ok(Some(Problem {
             grid,
             shape: Shape::whole(grid.nx, grid.ny),
@@ -421,13 +424,15 @@ impl Problem {
     }
 
     /// The heights over all held solved points, 0 on a pad; none of a sketch.
-    pub fn padded_heights(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
+    pub fn padded_heights(&self) -> impl IndexedParallelIterator<Item = f64> + '_ {
         let rows = if self.is_sketch() {
             0
         } else {
             self.share.rows().len()
         };
-        (0..rows * self.shape.points[0]).map(self.padded_height())
+        (0..rows * self.shape.points[0])
+            .into_par_iter()
+            .map(self.padded_height())
     }
 
     /// The grid's values out of those over all solved points, each of the held rows.

@@ -3,6 +3,8 @@
 use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
+use rayon::prelude::*;
+
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
@@ -217,7 +219,7 @@ impl Evaluation {
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
-        let of = |state: PointState| points.iter().filter(|&&point| point == state).count();
+        let of = |state: PointState| points.par_iter().filter(|&&point| point == state).count();
         let [touching, pulled] = setup.cut_edges.reached(&points, share);
         let [contact, attracted, touching, pulled] = share.counts([
             of(PointState::Contact),
@@ -318,23 +320,27 @@ fn close_pressed(setup: &Setup, problem: &Problem, solved: &mut Solved, law: &La
     }
     let stiffest = problem.stiffness_max();
     let sums_attraction = setup.sums_attraction();
-    for (i, place) in problem.surface_places().enumerate() {
-        let g = solved.gap[place];
-        if g <= 0.0 {
-            continue;
+    let (width, nx) = (problem.shape.points[0], problem.shape.surface[0]);
+    let (held, factors) = (solved.held, solved.law_factor);
+    let lines = solved.gap.par_chunks_exact_mut(width);
+    let lines = lines.zip(solved.elastic.par_chunks_exact(width));
+    let lines = lines.take(problem.share.surface_rows().len()).enumerate();
+    lines.for_each(|(row, (gap, elastic))| {
+        for (x, (g, elastic)) in gap[..nx].iter_mut().zip(elastic).enumerate() {
+            if *g <= 0.0 {
+                continue;
+            }
+            let i = row * nx + x;
+            let factor = factors.map_or(setup.law_factor(i), |factors| factors[i]);
+            let traction = match sums_attraction {
+                true => 0.0,
+                false => factor * law.traction(*g),
+            };
+            if imbalance(elastic + held, traction) > *g * stiffest {
+                *g = 0.0;
+            }
         }
-        let elastic = solved.elastic[place] + solved.held;
-        let factor = solved
-            .law_factor
-            .map_or(setup.law_factor(i), |factors| factors[i]);
-        let traction = match sums_attraction {
-            true => 0.0,
-            false => factor * law.traction(g),
-        };
-        if imbalance(elastic, traction) > g * stiffest {
-            solved.gap[place] = 0.0;
-        }
-    }
+    });
 }
 
 /// Edges between a point in contact and a 4-neighbour that is not; they wrap on a periodic grid.
@@ -360,8 +366,8 @@ fn perimeter_edges(
     let after = share.surface_row_after(&first)?;
     let touches = |x: usize, y: usize| points[y * nx + x] == PointState::Contact;
     let touches_after = |x: usize| after[x] == PointState::Contact as u8;
-    let mut edges = 0;
-    for y in 0..rows.len() {
+    let edges_of_row = |y: usize| {
+        let mut edges = 0;
         let is_followed = rows.start + y + 1 < ny || (wraps && ny > 1);
         for x in 0..nx {
             let here = touches(x, y);
@@ -376,7 +382,9 @@ fn perimeter_edges(
                 edges += 1;
             }
         }
-    }
+        edges
+    };
+    let edges = (0..rows.len()).into_par_iter().map(edges_of_row).sum();
     let [edges] = share.counts([edges]);
     Ok(edges)
 }

@@ -214,7 +214,7 @@ impl LinePlan {
         let exchange = loop {
             let ways = match lines {
                 1 => ways,
-                2 => &ways[..2],
+                2..=MOST_LINES => &ways[..2],
                 _ => &ways[..1],
             };
             if let Some(&exchange) = ways.iter().find(|&&exchange| fits(lines, exchange)) {

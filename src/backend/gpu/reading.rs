@@ -47,7 +47,8 @@ impl GpuBackend {
         self.traffic.fields_down += 1;
         let plan = self.level_space(field.level)?.plan.clone();
         let slabs = self.field_space(field)?.slabs.clone();
-        let mut values = vec![f64::NAN; plan.points()];
+        // Zeros cost nothing until they are written, which many threads do.
+        let mut values = vec![0.0; plan.points()];
         for (slab, buffer) in slabs.iter().enumerate() {
             let mut start = 0;
             for range in plan.slab_ranges(slab) {

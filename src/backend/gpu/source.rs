@@ -105,41 +105,6 @@ fn in_domain(source: &mut String, plan: &LevelPlan) {
     );
 }
 
-/// Code that a thread runs at each point before the kernel's own part.
-fn arrive(source: &mut String, kernel: &Kernel, law: LawSource) {
-    if !kernel.law && kernel.constraint.is_none() {
-        let _ = writeln!(
-            source,
-            "fn arrive(index: u32) -> bool {{ return in_domain(index); }}"
-        );
-        return;
-    }
-    let (factor, take) = match law.factor {
-        Some(binding) => (
-            format!(
-                "@group(1) @binding({binding}) var<storage, read> law_factors: array<real>;\n\
-                 var<private> law_factor: real;\n"
-            ),
-            "law_factor = law_factors[index]; ",
-        ),
-        None => ("const law_factor: real = 1.0;\n".to_string(), ""),
-    };
-    let (outer, outer_here) = match law.outer_gap {
-        Some(binding) => (
-            format!(
-                "@group(1) @binding({binding}) var<storage, read> outer_gaps: array<real>;\n\
-                 var<private> known_gap: real;\n"
-            ),
-            "known_gap = outer_gaps[index]; ",
-        ),
-        None => (String::new(), ""),
-    };
-    let _ = writeln!(
-        source,
-        "{factor}{outer}fn arrive(index: u32) -> bool {{ {take}{outer_here}return in_domain(index); }}"
-    );
-}
-
 /// The shader of a kernel on a level, for all its slabs. `whole` is the field that it reads at any point; one that it
 /// reads around each is of the same level.
 pub fn kernel(
@@ -167,8 +132,7 @@ pub fn kernel(
     }
     slabs::row_of(&mut source, plan);
     in_domain(&mut source, plan);
-    arrive(&mut source, kernel, law);
-    fields(&mut source, kernel);
+    fields(&mut source, kernel, law);
     let [width, height] = plan.shape;
     let _ = writeln!(
         source,
@@ -191,18 +155,31 @@ pub fn kernel(
     Ok(source)
 }
 
-/// The kernel's fields: bindings, and functions that read and write them. A field that only other variants
-/// bind reads as zero and is not written.
-fn fields(source: &mut String, kernel: &Kernel) {
-    let bound = kernel.reads.iter().chain(kernel.writes);
-    for (binding, name) in bound.enumerate() {
+/// The kernel's fields: their bindings; `fields_at`, which reads all of them at a point; `visit`, which runs the kernel's own part
+/// there; and the functions by which that part reads and writes them. A field that only other variants bind reads as zero and is
+/// not written.
+///
+/// They are read before the kernel's own part, so that a thread can ask for those of its next points before it works on one: a
+/// compiler moves no reading before the writing of another point.
+fn fields(source: &mut String, kernel: &Kernel, law: LawSource) {
+    let bound: Vec<&str> = kernel.reads.iter().chain(kernel.writes).copied().collect();
+    let updated = bound.len() - kernel.fresh;
+    // Members of a point's fields, and the arrays they are read from.
+    let mut members: Vec<(&str, String)> = Vec::new();
+    for (binding, &name) in bound.iter().enumerate() {
         let written = kernel.written().contains(&binding);
         let access = if written { "read_write" } else { "read" };
         let _ = writeln!(
             source,
-            "@group(1) @binding({binding}) var<storage, {access}> field_{name}: array<real>;\n\
-             fn read_{name}(index: u32) -> real {{ return field_{name}[index]; }}"
+            "@group(1) @binding({binding}) var<storage, {access}> field_{name}: array<real>;"
         );
+        if binding < updated {
+            members.push((name, format!("field_{name}")));
+            let _ = writeln!(
+                source,
+                "fn read_{name}(index: u32) -> real {{ return fields_here.{name}; }}"
+            );
+        }
         if written {
             let _ = writeln!(
                 source,
@@ -217,6 +194,45 @@ fn fields(source: &mut String, kernel: &Kernel) {
              fn write_{name}(index: u32, value: real) {{}}"
         );
     }
+    let mut arrive = String::new();
+    if kernel.law || kernel.constraint.is_some() {
+        let known = [("law_factor", law.factor), ("known_gap", law.outer_gap)];
+        for (name, binding) in known {
+            if let Some(binding) = binding {
+                let _ = writeln!(
+                    source,
+                    "@group(1) @binding({binding}) var<storage, read> {name}s: array<real>;\n\
+                     var<private> {name}: real;"
+                );
+                members.push((name, format!("{name}s")));
+                let _ = write!(arrive, "{name} = fields.{name}; ");
+            }
+        }
+        if law.factor.is_none() {
+            source.push_str("const law_factor: real = 1.0;\n");
+        }
+    }
+    // A structure has a member.
+    let (declared, read) = match members.is_empty() {
+        true => ("none: u32,".to_owned(), "0u".to_owned()),
+        false => (
+            members
+                .iter()
+                .map(|(name, _)| format!("{name}: real, "))
+                .collect(),
+            members
+                .iter()
+                .map(|(_, array)| format!("{array}[index], "))
+                .collect(),
+        ),
+    };
+    let _ = writeln!(
+        source,
+        "struct Fields {{ {declared} }}\n\
+         var<private> fields_here: Fields;\n\
+         fn fields_at(index: u32) -> Fields {{ return Fields({read}); }}\n\
+         fn visit(index: u32, fields: Fields, line: real) -> real {{ fields_here = fields; {arrive}return at(index, in_domain(index), line); }}"
+    );
 }
 
 fn join(source: &mut String, kernel: &Kernel, shader: &Shader, law: LawSource, number: Number) {
@@ -265,7 +281,7 @@ fn sweep_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
          fn {}(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) index_in_group: u32) {{\n\
          {open}\
          for (var index = group.x * {SWEEP_THREADS}u + index_in_group; index < {points}u; index = index + {stride}u) {{\n\
-         at(index, arrive(index), 0.0);\n\
+         visit(index, fields_at(index), 0.0);\n\
          }}\n\
          {close}}}\n",
         kernel.name,

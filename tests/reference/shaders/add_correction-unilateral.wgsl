@@ -67,13 +67,16 @@ fn row_of(index: u32) -> u32 {
 return index / 8u;
 }
 fn in_domain(index: u32) -> bool { return true; }
-const law_factor: real = 1.0;
-fn arrive(index: u32) -> bool { return in_domain(index); }
 @group(1) @binding(0) var<storage, read> field_correction: array<real>;
-fn read_correction(index: u32) -> real { return field_correction[index]; }
+fn read_correction(index: u32) -> real { return fields_here.correction; }
 @group(1) @binding(1) var<storage, read_write> field_gap: array<real>;
-fn read_gap(index: u32) -> real { return field_gap[index]; }
+fn read_gap(index: u32) -> real { return fields_here.gap; }
 fn write_gap(index: u32, value: real) { field_gap[index] = value; }
+const law_factor: real = 1.0;
+struct Fields { correction: real, gap: real,  }
+var<private> fields_here: Fields;
+fn fields_at(index: u32) -> Fields { return Fields(field_correction[index], field_gap[index], ); }
+fn visit(index: u32, fields: Fields, line: real) -> real { fields_here = fields; return at(index, in_domain(index), line); }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 // No attraction at all.
@@ -267,7 +270,7 @@ fn add_correction(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invoca
 if (!gate_always()) { return; }
 start_sums();
 for (var index = group.x * 256u + index_in_group; index < 64u; index = index + 256u) {
-at(index, arrive(index), 0.0);
+visit(index, fields_at(index), 0.0);
 }
 hand_in(group.x, index_in_group);
 }

@@ -58,14 +58,17 @@ fn row_of(index: u32) -> u32 {
 return index / 8u;
 }
 fn in_domain(index: u32) -> bool { return true; }
-const law_factor: real = 1.0;
-fn arrive(index: u32) -> bool { return in_domain(index); }
 @group(1) @binding(0) var<storage, read> field_gap: array<real>;
-fn read_gap(index: u32) -> real { return field_gap[index]; }
+fn read_gap(index: u32) -> real { return fields_here.gap; }
 @group(1) @binding(1) var<storage, read> field_pressure: array<real>;
-fn read_pressure(index: u32) -> real { return field_pressure[index]; }
+fn read_pressure(index: u32) -> real { return fields_here.pressure; }
 fn read_projected_residual(index: u32) -> real { return 0.0; }
 fn write_projected_residual(index: u32, value: real) {}
+const law_factor: real = 1.0;
+struct Fields { gap: real, pressure: real,  }
+var<private> fields_here: Fields;
+fn fields_at(index: u32) -> Fields { return Fields(field_gap[index], field_pressure[index], ); }
+fn visit(index: u32, fields: Fields, line: real) -> real { fields_here = fields; return at(index, in_domain(index), line); }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 // exp in double precision, of additions and multiplications alone: what devices have for it is made for
@@ -120,9 +123,9 @@ fn exponential(x: f64) -> f64 {
     }
     // x = power ln 2 + rest with |rest| <= ln(2)/2.
     let power = floor(x * LOG_2_E + 0.5);
-    // The least of it and infinity is what it was, and keeps a compiler from multiplying by the sum of both parts.
-    let high = min(power * LN_2_HIGH, params.infinity);
-    let rest = (x - high) - power * LN_2_LOW;
+    // The least of it and infinity is what it was, and keeps a compiler from subtracting both parts as one.
+    let near = min(x - power * LN_2_HIGH, params.infinity);
+    let rest = near - power * LN_2_LOW;
     return (1.0 + exp_series(rest)) * power_of_two(i32(f32(power)));
 }
 
@@ -367,18 +370,26 @@ var v2 = vec2<real>(0.0, 0.0);
 var v3 = vec2<real>(0.0, 0.0);
 if (inside) {
 { let j = thread + 0u;
-{ let index = pair * 8u + (j + 0u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v0 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 2u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v1 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 4u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v2 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 6u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v3 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
+let index0 = pair * 8u + (j + 0u);
+let upper0 = fields_at(index0);
+let lower0 = fields_at(index0 + 32u);
+let index1 = pair * 8u + (j + 2u);
+let upper1 = fields_at(index1);
+let lower1 = fields_at(index1 + 32u);
+{ let upper = visit(index0, upper0, 0.0);
+v0 = vec2<real>(upper, visit(index0 + 32u, lower0, 0.0)); }
+{ let upper = visit(index1, upper1, 0.0);
+v1 = vec2<real>(upper, visit(index1 + 32u, lower1, 0.0)); }
+let index2 = pair * 8u + (j + 4u);
+let upper2 = fields_at(index2);
+let lower2 = fields_at(index2 + 32u);
+let index3 = pair * 8u + (j + 6u);
+let upper3 = fields_at(index3);
+let lower3 = fields_at(index3 + 32u);
+{ let upper = visit(index2, upper2, 0.0);
+v2 = vec2<real>(upper, visit(index2 + 32u, lower2, 0.0)); }
+{ let upper = visit(index3, upper3, 0.0);
+v3 = vec2<real>(upper, visit(index3 + 32u, lower3, 0.0)); }
 }
 }
 { let j = thread + 0u;

@@ -93,16 +93,19 @@ fn row_of(index: u32) -> u32 {
 return index / 8u;
 }
 fn in_domain(index: u32) -> bool { return true; }
-const law_factor: real = 1.0;
-fn arrive(index: u32) -> bool { return in_domain(index); }
 @group(1) @binding(0) var<storage, read> field_gap: array<real>;
-fn read_gap(index: u32) -> real { return field_gap[index]; }
+fn read_gap(index: u32) -> real { return fields_here.gap; }
 @group(1) @binding(1) var<storage, read> field_direction: array<real>;
-fn read_direction(index: u32) -> real { return field_direction[index]; }
+fn read_direction(index: u32) -> real { return fields_here.direction; }
 @group(1) @binding(2) var<storage, read> field_pressure: array<real>;
-fn read_pressure(index: u32) -> real { return field_pressure[index]; }
+fn read_pressure(index: u32) -> real { return fields_here.pressure; }
 fn read_step(index: u32) -> real { return 0.0; }
 fn write_step(index: u32, value: real) {}
+const law_factor: real = 1.0;
+struct Fields { gap: real, direction: real, pressure: real,  }
+var<private> fields_here: Fields;
+fn fields_at(index: u32) -> Fields { return Fields(field_gap[index], field_direction[index], field_pressure[index], ); }
+fn visit(index: u32, fields: Fields, line: real) -> real { fields_here = fields; return at(index, in_domain(index), line); }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 fn into_energy_change(term: wide) {}
@@ -371,7 +374,7 @@ fn search(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_ind
 if (!gate_searching()) { return; }
 start_sums();
 for (var index = group.x * 256u + index_in_group; index < 64u; index = index + 256u) {
-at(index, arrive(index), 0.0);
+visit(index, fields_at(index), 0.0);
 }
 hand_in(group.x, index_in_group);
 }

@@ -9,12 +9,15 @@ fn row_of(index: u32) -> u32 {
 return index / 8u;
 }
 fn in_domain(index: u32) -> bool { return true; }
-const law_factor: real = 1.0;
-fn arrive(index: u32) -> bool { return in_domain(index); }
 @group(1) @binding(0) var<storage, read> field_gap: array<real>;
-fn read_gap(index: u32) -> real { return field_gap[index]; }
+fn read_gap(index: u32) -> real { return fields_here.gap; }
 @group(1) @binding(1) var<storage, read> field_projected_residual: array<real>;
-fn read_projected_residual(index: u32) -> real { return field_projected_residual[index]; }
+fn read_projected_residual(index: u32) -> real { return fields_here.projected_residual; }
+const law_factor: real = 1.0;
+struct Fields { gap: real, projected_residual: real,  }
+var<private> fields_here: Fields;
+fn fields_at(index: u32) -> Fields { return Fields(field_gap[index], field_projected_residual[index], ); }
+fn visit(index: u32, fields: Fields, line: real) -> real { fields_here = fields; return at(index, in_domain(index), line); }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 @group(1) @binding(2) var<storage, read> around_0: array<real>;
@@ -312,18 +315,26 @@ var v2 = vec2<real>(0.0, 0.0);
 var v3 = vec2<real>(0.0, 0.0);
 if (inside) {
 { let j = thread + 0u;
-{ let index = pair * 8u + (j + 0u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v0 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 2u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v1 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 4u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v2 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
-{ let index = pair * 8u + (j + 6u);
-let upper = at(index + 0u, arrive(index + 0u), 0.0);
-v3 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), 0.0)); }
+let index0 = pair * 8u + (j + 0u);
+let upper0 = fields_at(index0);
+let lower0 = fields_at(index0 + 32u);
+let index1 = pair * 8u + (j + 2u);
+let upper1 = fields_at(index1);
+let lower1 = fields_at(index1 + 32u);
+{ let upper = visit(index0, upper0, 0.0);
+v0 = vec2<real>(upper, visit(index0 + 32u, lower0, 0.0)); }
+{ let upper = visit(index1, upper1, 0.0);
+v1 = vec2<real>(upper, visit(index1 + 32u, lower1, 0.0)); }
+let index2 = pair * 8u + (j + 4u);
+let upper2 = fields_at(index2);
+let lower2 = fields_at(index2 + 32u);
+let index3 = pair * 8u + (j + 6u);
+let upper3 = fields_at(index3);
+let lower3 = fields_at(index3 + 32u);
+{ let upper = visit(index2, upper2, 0.0);
+v2 = vec2<real>(upper, visit(index2 + 32u, lower2, 0.0)); }
+{ let upper = visit(index3, upper3, 0.0);
+v3 = vec2<real>(upper, visit(index3 + 32u, lower3, 0.0)); }
 }
 }
 if (inside) {

@@ -66,19 +66,22 @@ fn row_of(index: u32) -> u32 {
 return index / 8u;
 }
 fn in_domain(index: u32) -> bool { return true; }
-const law_factor: real = 1.0;
-fn arrive(index: u32) -> bool { return in_domain(index); }
 @group(1) @binding(0) var<storage, read> field_gap: array<real>;
-fn read_gap(index: u32) -> real { return field_gap[index]; }
+fn read_gap(index: u32) -> real { return fields_here.gap; }
 @group(1) @binding(1) var<storage, read> field_pressure: array<real>;
-fn read_pressure(index: u32) -> real { return field_pressure[index]; }
+fn read_pressure(index: u32) -> real { return fields_here.pressure; }
 @group(1) @binding(2) var<storage, read_write> field_direction: array<real>;
-fn read_direction(index: u32) -> real { return field_direction[index]; }
+fn read_direction(index: u32) -> real { return fields_here.direction; }
 fn write_direction(index: u32, value: real) { field_direction[index] = value; }
 fn read_heights_pressure(index: u32) -> real { return 0.0; }
 fn write_heights_pressure(index: u32, value: real) {}
 fn read_step(index: u32) -> real { return 0.0; }
 fn write_step(index: u32, value: real) {}
+const law_factor: real = 1.0;
+struct Fields { gap: real, pressure: real, direction: real,  }
+var<private> fields_here: Fields;
+fn fields_at(index: u32) -> Fields { return Fields(field_gap[index], field_pressure[index], field_direction[index], ); }
+fn visit(index: u32, fields: Fields, line: real) -> real { fields_here = fields; return at(index, in_domain(index), line); }
 const WIDTH: u32 = 8u;
 const HEIGHT: u32 = 8u;
 const LINEAR: bool = false;
@@ -423,18 +426,26 @@ v3 = work[(j + 6u) * 4u + pair];
 }
 if (inside) {
 { let j = thread + 0u;
-{ let index = pair * 8u + (j + 0u);
-let upper = at(index + 0u, arrive(index + 0u), v0.x);
-v0 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v0.y)); }
-{ let index = pair * 8u + (j + 2u);
-let upper = at(index + 0u, arrive(index + 0u), v1.x);
-v1 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v1.y)); }
-{ let index = pair * 8u + (j + 4u);
-let upper = at(index + 0u, arrive(index + 0u), v2.x);
-v2 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v2.y)); }
-{ let index = pair * 8u + (j + 6u);
-let upper = at(index + 0u, arrive(index + 0u), v3.x);
-v3 = vec2<real>(upper, at(index + 32u, arrive(index + 32u), v3.y)); }
+let index0 = pair * 8u + (j + 0u);
+let upper0 = fields_at(index0);
+let lower0 = fields_at(index0 + 32u);
+let index1 = pair * 8u + (j + 2u);
+let upper1 = fields_at(index1);
+let lower1 = fields_at(index1 + 32u);
+{ let upper = visit(index0, upper0, v0.x);
+v0 = vec2<real>(upper, visit(index0 + 32u, lower0, v0.y)); }
+{ let upper = visit(index1, upper1, v1.x);
+v1 = vec2<real>(upper, visit(index1 + 32u, lower1, v1.y)); }
+let index2 = pair * 8u + (j + 4u);
+let upper2 = fields_at(index2);
+let lower2 = fields_at(index2 + 32u);
+let index3 = pair * 8u + (j + 6u);
+let upper3 = fields_at(index3);
+let lower3 = fields_at(index3 + 32u);
+{ let upper = visit(index2, upper2, v2.x);
+v2 = vec2<real>(upper, visit(index2 + 32u, lower2, v2.y)); }
+{ let upper = visit(index3, upper3, v3.x);
+v3 = vec2<real>(upper, visit(index3 + 32u, lower3, v3.y)); }
 }
 }
 { let j = thread + 0u;

@@ -14,6 +14,9 @@ use super::slabs::first_turn;
 use super::{ends, frame, long};
 use crate::kernel::{Form, Kernel};
 
+/// Values of a thread whose fields are read before the kernel's own part runs on the first: as many as its registers have room for.
+const LEGS_TOGETHER: usize = 2;
+
 /// The beginning of a kernel on pairs of rows; `pair` is this thread's pair.
 fn head(source: &mut String, kernel: &Kernel, plan: &LevelPlan, open: &str) {
     source.push_str(&LineWriter::declarations(&plan.rows));
@@ -75,27 +78,33 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     }
     writer.source.push_str("if (inside) {\n");
     writer.butterflies(first, |source, each| {
-        for leg in 0..each.radix {
-            let name = each.name(leg);
-            let at = |part: &str, offset: usize| {
-                let line = match form {
+        let legs: Vec<usize> = (0..each.radix).collect();
+        for together in legs.chunks(LEGS_TOGETHER) {
+            for leg in together {
+                let index = long::row_index(plan, &each.position(*leg));
+                let _ = writeln!(
+                    source,
+                    "let index{leg} = {index};\n\
+                     let upper{leg} = fields_at(index{leg});\n\
+                     let lower{leg} = fields_at(index{leg} + {half}u);"
+                );
+            }
+            for leg in together {
+                let name = each.name(*leg);
+                let line = |part: &str| match form {
                     Form::Load | Form::Retain => "0.0".to_owned(),
                     _ => format!("{name}.{part}"),
                 };
-                format!("at(index + {offset}u, arrive(index + {offset}u), {line})")
-            };
-            let (upper, lower) = (at("x", 0), at("y", half));
-            let index = long::row_index(plan, &each.position(leg));
-            let _ = match form {
-                Form::Store | Form::ReadRetained => {
-                    writeln!(source, "{{ let index = {index};\n{upper};\n{lower}; }}")
-                }
-                _ => writeln!(
-                    source,
-                    "{{ let index = {index};\n\
-                     let upper = {upper};\n{name} = vec2<real>(upper, {lower}); }}"
-                ),
-            };
+                let upper = format!("visit(index{leg}, upper{leg}, {})", line("x"));
+                let lower = format!("visit(index{leg} + {half}u, lower{leg}, {})", line("y"));
+                let _ = match form {
+                    Form::Store | Form::ReadRetained => writeln!(source, "{upper};\n{lower};"),
+                    _ => writeln!(
+                        source,
+                        "{{ let upper = {upper};\n{name} = vec2<real>(upper, {lower}); }}"
+                    ),
+                };
+            }
         }
     });
     writer.source.push_str("}\n");
