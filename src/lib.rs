@@ -105,16 +105,17 @@
 //! | sharp Maugis-Dugdale, a mean gap | 19 | 29.8 |
 //! | the same with a hardness, a mean gap | 21 | 30.8 |
 //! | exponential, a pressure | 29 | 35.5 |
-//! | Lennard-Jones, a pressure | 19 | 29.8 |
-//! | Lennard-Jones, a mean gap | 23 | 33.8 |
+//! | Lennard-Jones, a pressure | 25 | 35.8 |
+//! | Lennard-Jones, a mean gap | 29 | 39.8 |
 //!
 //! Of these fields a convolution takes six: the half-space's stiffness is computed in registers. A solid
 //! with a table in its place (a layer, a free boundary) moves a quarter of a field more. Eleven of the dispatches
 //! are those of the halved grids, ten more and 8.7 fields those of their second sweep, where an attraction falls with the gap from a
 //! wall on and a grid of at most 2^19 points resolves it; far from a solution with adhesion over a wall, where these have no part, an iteration takes
 //! ten dispatches and 1.8 fields less than with one sweep. Of the dispatches and fields
-//! of a law with a tail two each are a pass of the search for the step length, which behind a wall looks at four
-//! steps; of Lennard-Jones the first step rides in the trial. A pass that is not needed moves nothing; a
+//! of a law with a tail two each are a pass of the search for the step length: one in a round behind a wall, where it looks at
+//! four steps, four with Lennard-Jones, whose iterations take as many on average and whose first step rides in the trial. A pass
+//! that is not needed moves nothing; a
 //! search that needs more continues in the next round, which does nothing else. In the rounds of mixed
 //! precision every kernel of a law reads a field more. Under a mean gap the trial step is scaled back to
 //! it: by linearity, so that no pass comes between, but with Lennard-Jones and with a hardness, where

@@ -14,6 +14,7 @@ pub mod dry_run;
 mod factors;
 #[cfg(feature = "gpu")]
 pub mod gpu;
+pub(crate) mod host_fields;
 pub mod ranks;
 mod share;
 /// What remains of graphics processors without the feature `gpu`: a buffer that nobody can have.

@@ -11,9 +11,7 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
-use crate::backend::BackendError;
+use crate::backend::{BackendError, host_fields};
 use crate::scene::{RelaxationScene, Scene, SolidScene};
 use crate::solver::{ContactSolver, Problem};
 use crate::study::{
@@ -247,8 +245,10 @@ impl Carry for History {
         let scales = problem.scales;
         let unit = scales.length * scales.pressure * problem.grid.pixel_area();
         let rigid = (evaluation.displacement_offset + problem.height_origin) / scales.length;
-        let points = displacement.par_iter_mut().zip(problem.padded_heights());
-        points.for_each(|(u, h)| *u += h + rigid);
+        {
+            let height_at = problem.padded_height();
+            host_fields::change(&mut displacement, |point, u| *u += height_at(point) + rigid);
+        }
         let depths = solver.plastic_depths().into_iter().flatten();
         for (u, depth) in displacement.iter_mut().zip(depths) {
             *u -= depth;

@@ -2,11 +2,9 @@
 
 use std::ops::Range;
 
-use rayon::prelude::*;
-
 use super::contact::{ContactSolver, Hold, Load, Start};
 use super::{MakeBackend, problem::Problem};
-use crate::backend::{Backend, BackendError};
+use crate::backend::{Backend, BackendError, host_fields};
 use crate::kernel::{Scalars, Status};
 use crate::law::Law;
 
@@ -77,17 +75,15 @@ fn refine(
     };
     drop((start, backend));
     let height_at = coarse.heights.by_point();
-    let points = displacement.par_iter_mut().enumerate();
-    points.for_each(|(point, u)| *u += height_at(point));
+    host_fields::change(&mut displacement, |point, u| *u += height_at(point));
     let mut gap = refined(&displacement, &coarse, problem)?;
     drop(displacement);
     let height_at = problem.heights.by_point();
-    let points = gap.par_iter_mut().enumerate();
-    points.for_each(|(point, g)| *g = (*g - height_at(point)).max(0.0));
+    host_fields::change(&mut gap, |point, g| *g = (*g - height_at(point)).max(0.0));
     if let Hold::Gap(target) = load.hold {
         let mean = problem.share.sum(&gap) / problem.shape.len() as f64;
         if mean > 0.0 {
-            gap.par_iter_mut().for_each(|g| *g *= target / mean);
+            host_fields::change(&mut gap, |_, g| *g *= target / mean);
         }
     }
     Ok(Some((gap, transforms / 4.0)))
@@ -163,8 +159,8 @@ fn interpolate<'a>(
     rows: Range<usize>,
 ) -> Vec<f64> {
     let mut fine = vec![0.0; 2 * nx * rows.len()];
-    let lines = fine.par_chunks_exact_mut(2 * nx).zip(rows);
-    lines.for_each(|(line, y)| {
+    host_fields::change_rows(&mut fine, 2 * nx, |place, line| {
+        let y = rows.start + place;
         let row = y / 2;
         let other = if y % 2 == 0 {
             (row + ny - 1) % ny

@@ -2,8 +2,6 @@
 
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::MakeBackend;
 use super::borrowed::{BackendRef, ProblemRef};
 use super::coarse_start;
@@ -12,7 +10,7 @@ use super::mean_gap::HeightsPressure;
 use super::multilevel::{Multilevel, sticks};
 use super::outer_state::OuterState;
 use super::problem::Problem;
-use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum};
+use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum, host_fields};
 use crate::grid::Boundary;
 use crate::kernel::{Params, Scalars, Status, scalar};
 use crate::law::{Cohesion, Law};
@@ -316,8 +314,8 @@ impl<'a> ContactSolver<'a> {
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a prescribed mean gap.
     fn undeformed(&self, load: &Load) -> Vec<f64> {
-        let points = (0..self.problem.heights.len()).into_par_iter();
-        let mut heights: Vec<f64> = points.map(self.problem.heights.by_point()).collect();
+        let own = &self.problem.heights;
+        let mut heights = host_fields::made(own.len(), own.by_point());
         if let Some(depths) = &self.plastic_depths {
             let depths = self.problem.surface_part(depths);
             heights
@@ -327,12 +325,12 @@ impl<'a> ContactSolver<'a> {
         }
         let highest = self.problem.share.greatest_of(&heights);
         let mut gap = heights;
-        gap.par_iter_mut().for_each(|h| *h = highest - *h);
+        host_fields::change(&mut gap, |_, h| *h = highest - *h);
         if let Hold::Gap(target) = load.hold {
             let sum = self.problem.share.surface_sum_by(&gap, |g| g);
             let mean = sum / self.problem.shape.surface_len() as f64;
             if target >= mean {
-                gap.par_iter_mut().for_each(|g| *g += target - mean);
+                host_fields::change(&mut gap, |_, g| *g += target - mean);
             } else if target <= 0.0
                 && (self.problem.hardness.is_some() || !self.problem.law.has_wall())
             {
@@ -340,7 +338,7 @@ impl<'a> ContactSolver<'a> {
                 // stand parallel where they repel.
                 gap.fill(target);
             } else {
-                gap.par_iter_mut().for_each(|g| *g *= target / mean);
+                host_fields::change(&mut gap, |_, g| *g *= target / mean);
             }
         }
         gap

@@ -9,10 +9,12 @@ use crate::kernel::{Gate, Scalars, Status, displacement, scalar, step_length};
 /// Most evaluations of one line search on a backend that looks at each, above the scalar kernels' own
 /// bounds.
 const SEARCHES: usize = 48;
-/// Passes of a line search in one round on a backend that does not look: most need no more, and one that
-/// does continues in the next round, which does nothing else. At a wall a pass tries several steps; with
-/// Lennard-Jones the trial evaluates the first.
+/// Passes of a line search in one round on a backend that does not look: a search that needs more continues in
+/// the next round, which does nothing else. At a wall a pass tries several steps, and most searches need no more.
 const SEARCHES_AT_ONCE: usize = 1;
+/// The same without a wall, where the trial evaluates the first step and an iteration takes four passes on average. One that
+/// is not needed costs two dispatches that idle, a round all of them.
+const SEARCHES_WITHOUT_WALL: usize = 4;
 
 impl ContactSolver<'_> {
     /// Loads and measures the residual of the present state: every round starts from its transformed rows.
@@ -161,7 +163,11 @@ impl ContactSolver<'_> {
         let fields = [self.gap, moved, self.pressure];
         let fields = &fields[..search.fields()];
         let looks = self.backend.look_every() == 1;
-        let most = if looks { SEARCHES } else { SEARCHES_AT_ONCE };
+        let most = match (looks, self.step) {
+            (true, _) => SEARCHES,
+            (false, None) => SEARCHES_AT_ONCE,
+            (false, Some(_)) => SEARCHES_WITHOUT_WALL,
+        };
         for _ in 0..most {
             if looks && !self.backend.scalars()?.is_open(Gate::Searching) {
                 break;

@@ -1,7 +1,5 @@
 //! The rigid heights of a solve: those of the problem as plastic indentation and the history of the solid have moved them.
 
-use rayon::prelude::*;
-
 use super::contact::ContactSolver;
 
 impl ContactSolver<'_> {
@@ -32,7 +30,7 @@ impl ContactSolver<'_> {
 
     /// The rigid heights over all held solved points as plastic depths and history have left them.
     fn moved_heights(&self) -> Vec<f64> {
-        let mut moved: Vec<f64> = self.problem.padded_heights().collect();
+        let mut moved = self.problem.padded_heights();
         for (height, depth) in moved.iter_mut().zip(self.plastic_depths.iter().flatten()) {
             *height -= depth;
         }

@@ -1,7 +1,5 @@
 //! The state of a contact in double precision, beside a solver whose iterations run in single.
 
-use rayon::prelude::*;
-
 use super::contact::{Hold, Load};
 use super::kernel_set::{KernelSet, params_of_problem};
 use super::mean_gap::HeightsPressure;
@@ -101,7 +99,7 @@ impl OuterState {
         problem: &Problem,
     ) -> Self {
         let places = Places::plan(&mut *backend, iterating, fine, problem);
-        let heights: Vec<f64> = problem.padded_heights().collect();
+        let heights = problem.padded_heights();
         backend.write(places.heights, &heights);
         let params = params_of_problem(problem, backend.epsilon());
         OuterState {

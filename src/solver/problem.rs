@@ -3,12 +3,12 @@
 use std::f64::consts::PI;
 use std::sync::Arc;
 
-use rayon::prelude::*;
-
 use super::heights::Heights;
 use super::stiffness;
 use crate::backend::ranks::Ranks;
-use crate::backend::{Backend, BackendError, Factors, Level, Response, Shape, Share, Spectrum};
+use crate::backend::{
+    Backend, BackendError, Factors, Level, Response, Shape, Share, Spectrum, host_fields,
+};
 use crate::elastic::{HalfSpace, Layer, Stiffness, StiffnessTable};
 use crate::grid::{Boundary, Grid};
 use crate::law::Law;
@@ -321,8 +321,7 @@ impl Problem {
             Some(heights) => heights[point],
         };
         let mut heights = vec![0.0; share.len()];
-        let lines = heights.par_chunks_exact_mut(grid.nx).enumerate();
-        lines.for_each(|(row, line)| {
+        host_fields::change_rows(&mut heights, grid.nx, |row, line| {
             for (column, height) in line.iter_mut().enumerate() {
                 let at = 2 * row * nx + 2 * column;
                 *height = 0.25
@@ -424,15 +423,13 @@ impl Problem {
     }
 
     /// The heights over all held solved points, 0 on a pad; none of a sketch.
-    pub fn padded_heights(&self) -> impl IndexedParallelIterator<Item = f64> + '_ {
+    pub fn padded_heights(&self) -> Vec<f64> {
         let rows = if self.is_sketch() {
             0
         } else {
             self.share.rows().len()
         };
-        (0..rows * self.shape.points[0])
-            .into_par_iter()
-            .map(self.padded_height())
+        host_fields::made(rows * self.shape.points[0], self.padded_height())
     }
 
     /// The grid's values out of those over all solved points, each of the held rows.

@@ -3,12 +3,10 @@
 use std::borrow::Cow;
 use std::f64::consts::{LN_2, PI};
 
-use rayon::prelude::*;
-
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
-use crate::backend::{BackendError, Share};
+use crate::backend::{BackendError, Share, host_fields};
 use crate::grid::Boundary;
 use crate::law::{Law, Support, imbalance, net_pressure};
 use crate::scene::FieldName;
@@ -219,7 +217,7 @@ impl Evaluation {
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
-        let of = |state: PointState| points.par_iter().filter(|&&point| point == state).count();
+        let of = |state: PointState| host_fields::count(&points, |&point| point == state);
         let [touching, pulled] = setup.cut_edges.reached(&points, share);
         let [contact, attracted, touching, pulled] = share.counts([
             of(PointState::Contact),
@@ -322,10 +320,10 @@ fn close_pressed(setup: &Setup, problem: &Problem, solved: &mut Solved, law: &La
     let sums_attraction = setup.sums_attraction();
     let (width, nx) = (problem.shape.points[0], problem.shape.surface[0]);
     let (held, factors) = (solved.held, solved.law_factor);
-    let lines = solved.gap.par_chunks_exact_mut(width);
-    let lines = lines.zip(solved.elastic.par_chunks_exact(width));
-    let lines = lines.take(problem.share.surface_rows().len()).enumerate();
-    lines.for_each(|(row, (gap, elastic))| {
+    let elastic = &solved.elastic;
+    let surface = problem.share.surface_rows().len() * width;
+    host_fields::change_rows(&mut solved.gap[..surface], width, |row, gap| {
+        let elastic = &elastic[row * width..];
         for (x, (g, elastic)) in gap[..nx].iter_mut().zip(elastic).enumerate() {
             if *g <= 0.0 {
                 continue;
@@ -384,7 +382,7 @@ fn perimeter_edges(
         }
         edges
     };
-    let edges = (0..rows.len()).into_par_iter().map(edges_of_row).sum();
+    let edges = host_fields::count_in_rows(rows.len(), edges_of_row);
     let [edges] = share.counts([edges]);
     Ok(edges)
 }

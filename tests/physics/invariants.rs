@@ -212,8 +212,7 @@ impl Contact {
         // the law, the most.
         let size = norm(&y).max(norm(&traction));
         let softest = problem.stiffness_min() * (1.0 - SOFTENING);
-        let gap_error = 2.0 * TOLERANCE * size / softest
-            + 1e-14 * norm(&problem.padded_heights().collect::<Vec<f64>>());
+        let gap_error = 2.0 * TOLERANCE * size / softest + 1e-14 * norm(&problem.padded_heights());
         let [length, pressure] = [
             problem.scales.length / units.vertical,
             problem.scales.pressure / units.pressure(),

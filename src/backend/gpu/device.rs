@@ -1,8 +1,7 @@
 //! Devices: their limits, and how their failures are caught.
 
-use std::collections::HashMap;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
 use super::GpuBackend;
@@ -10,6 +9,7 @@ use super::adapter::{AdapterChoice, AdapterDescription, choose, describe, enumer
 use super::error::GpuError;
 use super::layout::{Number, Wide};
 use super::level::LevelPlan;
+use super::pipelines::Pipelines;
 use super::slabs::Limits;
 use super::space;
 use crate::backend::Shape;
@@ -49,7 +49,7 @@ struct Inner {
     device: wgpu::Device,
     queue: wgpu::Queue,
     description: AdapterDescription,
-    pipelines: Mutex<HashMap<String, wgpu::ComputePipeline>>,
+    pipelines: Pipelines,
     lost: Arc<OnceLock<String>>,
     /// Whether the compiler undoes compensated sums.
     plain_sums: OnceLock<bool>,
@@ -110,7 +110,7 @@ impl GpuDevice {
                 device,
                 queue,
                 description,
-                pipelines: Mutex::new(HashMap::new()),
+                pipelines: Pipelines::default(),
                 lost,
                 plain_sums: OnceLock::new(),
                 left: faults.lost_after.map(AtomicU64::new),
@@ -251,30 +251,27 @@ impl GpuDevice {
         (result, failure.or_else(|| self.loss()))
     }
 
-    /// Compiles a shader, or reuses its pipeline.
-    pub(super) fn pipeline(
+    /// Its shaders.
+    pub(super) fn pipelines(&self) -> &Pipelines {
+        &self.inner.pipelines
+    }
+
+    /// A shader compiled with the layouts of its groups.
+    pub(super) fn compiled(
         &self,
         name: &str,
-        source: String,
-        layouts: &[&wgpu::BindGroupLayout],
+        source: &str,
+        layouts: &[wgpu::BindGroupLayout],
     ) -> Result<wgpu::ComputePipeline, GpuError> {
-        let mut pipelines = self
-            .inner
-            .pipelines
-            .lock()
-            .unwrap_or_else(PoisonError::into_inner);
-        if let Some(pipeline) = pipelines.get(&source) {
-            return Ok(pipeline.clone());
-        }
-        let pipeline = self.guarded(|device| {
+        self.guarded(|device| {
             if let Some(time) = self.inner.compiling {
                 std::thread::sleep(time);
             }
             let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
                 label: Some(name),
-                source: wgpu::ShaderSource::Wgsl(source.as_str().into()),
+                source: wgpu::ShaderSource::Wgsl(source.into()),
             });
-            let layouts: Vec<_> = layouts.iter().map(|&layout| Some(layout)).collect();
+            let layouts: Vec<_> = layouts.iter().map(Some).collect();
             let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
                 label: Some(name),
                 bind_group_layouts: &layouts,
@@ -292,9 +289,7 @@ impl GpuDevice {
                 },
                 cache: None,
             })
-        })?;
-        pipelines.insert(source, pipeline.clone());
-        Ok(pipeline)
+        })
     }
 }
 
@@ -320,7 +315,8 @@ mod tests {
         };
         let refused = device.allocate("far too long", 1 << 50);
         assert!(refused.is_err(), "{refused:?}");
-        let refused = device.pipeline("nothing", "no shader".to_string(), &[]);
+        let refused = device.pipeline("nothing", "no shader".to_string(), Vec::new());
+        let refused = refused.ready();
         assert!(refused.is_err(), "{refused:?}");
         assert!(device.allocate("short", 16).is_ok());
     }

@@ -40,8 +40,7 @@ impl GpuBackend {
                 })
                 .collect::<(Vec<_>, Vec<_>)>()
         })?;
-        let layouts: Vec<_> = layouts.iter().collect();
-        let pipeline = self.device.pipeline(name, source, &layouts)?;
+        let pipeline = self.device.pipeline(name, source, layouts);
         Ok(Prepared {
             name: name.to_owned(),
             bytes,

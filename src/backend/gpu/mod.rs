@@ -22,6 +22,7 @@ mod level;
 mod long;
 #[cfg(feature = "fault-injection")]
 mod members;
+mod pipelines;
 mod plan;
 mod quiet;
 mod reading;

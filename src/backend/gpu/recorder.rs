@@ -5,6 +5,7 @@ use std::sync::mpsc;
 use super::device::GpuDevice;
 use super::error::GpuError;
 use super::layout::Number;
+use super::pipelines::Pipeline;
 use super::timing::Timer;
 
 /// Bytes written or read at a time; each transfer needs a copy of them.
@@ -20,7 +21,7 @@ pub struct Prepared {
     /// Bytes of the fields, tables and work space that it moves.
     pub bytes: u64,
     /// The kernel.
-    pub pipeline: wgpu::ComputePipeline,
+    pub pipeline: Pipeline,
     /// Its bind groups, from 0.
     pub groups: Vec<wgpu::BindGroup>,
     /// Workgroups along x and y.
@@ -28,9 +29,9 @@ pub struct Prepared {
 }
 
 impl Prepared {
-    /// Records it in a pass.
-    pub fn record(&self, pass: &mut wgpu::ComputePass) {
-        pass.set_pipeline(&self.pipeline);
+    /// Records it, with its compiled kernel, in a pass.
+    pub fn record(&self, compiled: &wgpu::ComputePipeline, pass: &mut wgpu::ComputePass) {
+        pass.set_pipeline(compiled);
         for (group, place) in self.groups.iter().zip(0..) {
             pass.set_bind_group(place, group, &[]);
         }
@@ -84,18 +85,22 @@ impl Recorder {
             return Ok(());
         }
         let waiting = std::mem::take(&mut self.waiting);
+        let compiled = waiting
+            .iter()
+            .map(|prepared| prepared.pipeline.ready())
+            .collect::<Result<Vec<_>, _>>()?;
         let staging = self.staging.as_ref();
         let timer = self.timer.as_ref();
         let queue = self.device.queue();
         self.device.guarded(|device| {
             let mut encoder = device.create_command_encoder(&Default::default());
             if let Some(timer) = timer {
-                timer.passes(&mut encoder, &waiting);
+                timer.passes(&mut encoder, &waiting, &compiled);
             } else if !waiting.is_empty() {
                 // One pass for all: one pass for each dispatch costs the host three times as much.
                 let mut pass = encoder.begin_compute_pass(&Default::default());
-                for prepared in &waiting {
-                    prepared.record(&mut pass);
+                for (prepared, compiled) in waiting.iter().zip(&compiled) {
+                    prepared.record(compiled, &mut pass);
                 }
             }
             if let Some(staging) = staging {

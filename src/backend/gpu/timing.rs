@@ -140,8 +140,14 @@ impl Timer {
     }
 
     /// Records dispatches, each as a pass between two timestamps.
-    pub fn passes(&self, encoder: &mut wgpu::CommandEncoder, waiting: &[Prepared]) {
-        for (prepared, first) in waiting.iter().zip((0u32..).step_by(2)) {
+    pub fn passes(
+        &self,
+        encoder: &mut wgpu::CommandEncoder,
+        waiting: &[Prepared],
+        compiled: &[&wgpu::ComputePipeline],
+    ) {
+        let each = waiting.iter().zip(compiled);
+        for ((prepared, compiled), first) in each.zip((0u32..).step_by(2)) {
             let mut pass = encoder.begin_compute_pass(&wgpu::ComputePassDescriptor {
                 label: None,
                 timestamp_writes: Some(wgpu::ComputePassTimestampWrites {
@@ -150,7 +156,7 @@ impl Timer {
                     end_of_pass_write_index: Some(first + 1),
                 }),
             });
-            prepared.record(&mut pass);
+            prepared.record(compiled, &mut pass);
         }
         let stamps = 2 * waiting.len() as u32;
         if stamps > 0 {
