@@ -162,7 +162,7 @@ fn interpolate<'a>(
     host_fields::change_rows(&mut fine, 2 * nx, |place, line| {
         let y = rows.start + place;
         let row = y / 2;
-        let other = if y % 2 == 0 {
+        let other = if y.is_multiple_of(2) {
             (row + ny - 1) % ny
         } else {
             (row + 1) % ny
@@ -171,7 +171,7 @@ fn interpolate<'a>(
         let at = |x: usize| 0.75 * near[x] + 0.25 * far[x];
         for (x, value) in line.iter_mut().enumerate() {
             let column = x / 2;
-            let other = if x % 2 == 0 {
+            let other = if x.is_multiple_of(2) {
                 (column + nx - 1) % nx
             } else {
                 (column + 1) % nx
