@@ -37,7 +37,7 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    /// The one of a source; `compile` makes it, on another thread, where there is none.
+    /// The compiled shader of a source. Where there is none yet, another thread compiles it.
     pub fn of(
         &self,
         source: String,
