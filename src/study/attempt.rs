@@ -81,13 +81,16 @@ impl Attempt<'_> {
                 break;
             }
             tolerance *= CLOSER_BY;
-            let left = settings.max_iterations.saturating_sub(solved.iterations);
+            let before = solved.iterations;
+            // Its fields are not held beside those of the solve.
+            drop(solved);
+            let left = settings.max_iterations.saturating_sub(before);
             let mut outcome = self.solve_to(tolerance, left, load, &Start::Present)?;
             // It need not be this close: what is still missed is warned of.
             if outcome.status != Status::PulledOff && outcome.residual <= settings.tolerance {
                 outcome.status = Status::Converged;
             }
-            outcome.iterations += solved.iterations;
+            outcome.iterations += before;
             solved = self.finish(load, &outcome)?;
         }
         Ok(solved)

@@ -182,6 +182,36 @@ fn a_whole_path_takes_what_is_stated_to_a_tenth() {
     }
 }
 
+/// A step whose load is lost in its tolerance is solved on to a smaller one, in the memory of any other.
+#[cfg(target_os = "linux")]
+fn a_step_that_is_solved_on_takes_what_is_stated_to_a_tenth() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (points, tolerance) = (1024, 0.1);
+    let text = format!(
+        "[grid]\npoints = {points}\nsize = \"100 um\"\n[solid]\ncontact_modulus = \"25 MPa\"\n\
+         [[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_slope = 1\nlongest = \"100 um\"\nrolloff = \"20 um\"\nshortest = \"0.2 um\"\n\
+         [adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"2.07 nm\"\n\
+         [loading]\ncontrol = \"pressure\"\npath = [\"250 kPa\"]\n\
+         [solver]\nbackend = \"cpu\"\nprecision = \"double\"\ntolerance = {tolerance}\n[output]\nimages = []\n"
+    );
+    let name = "solved on";
+    let peak = peak_of(folder.path(), &text, name, 0);
+    let rows = binary::table(&folder.path().join("scene/curve.csv"));
+    let residual = binary::number(&rows[0], "residual").expect("a residual");
+    assert!(
+        residual < 0.1 * tolerance,
+        "it was not solved on: {residual}"
+    );
+    let plan = plan(&text);
+    let stated = plan.memory(plan.place()).expect("a count").machine as f64;
+    let share = peak / stated;
+    println!(
+        "{share:.3} of {:.0} MiB: {name}",
+        stated / f64::from(1 << 20)
+    );
+    assert!((share - 1.0).abs() <= 0.1, "{share} of what is stated");
+}
+
 /// A viscoelastic path that converges, of three branches, whose state a checkpoint holds after each step: no more than is
 /// stated, but for the allocator's slack.
 #[cfg(target_os = "linux")]
@@ -437,6 +467,8 @@ tests![
     a_run_takes_what_was_counted,
     #[cfg(target_os = "linux")]
     a_whole_path_takes_what_is_stated_to_a_tenth,
+    #[cfg(target_os = "linux")]
+    a_step_that_is_solved_on_takes_what_is_stated_to_a_tenth,
     #[cfg(target_os = "linux")]
     a_viscoelastic_path_takes_no_more_than_is_stated,
     what_does_not_fit_is_refused_with_the_largest_grid_that_does,
