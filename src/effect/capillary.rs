@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 
 use super::adhesion::{ATTRACTION, attraction, warnings_of_pixels};
 use crate::law::LEAST_KELVIN_RADIUS;
-use crate::scene::Scene;
+use crate::scene::{Boundary, CapillaryScene, Scene};
 use crate::study::{Column, Evaluation, Hooks, Plan, Setup};
 use crate::units::format_si;
 
@@ -16,6 +16,9 @@ const TEMPERATURES: RangeInclusive<f64> = 200.0..=700.0;
 const SURFACE_TENSION: f64 = 5.0;
 /// Largest molar volume of a liquid, m^3/mol: silicone oils have some 0.03.
 const MOLAR_VOLUME: f64 = 0.1;
+/// Height of a meniscus over the rms height from which on it fills the gap of surfaces that touch: six are from the highest peak to
+/// the lowest valley of most rough surfaces.
+const FLOODED: f64 = 6.0;
 /// Side of a map, m, from which on a scene may be in reduced units.
 const REDUCED: f64 = 0.01;
 
@@ -50,11 +53,11 @@ impl Hooks for Capillary {
 
     fn matters(&self, plan: &Plan) -> String {
         let capillary = plan.scene.capillary.as_ref();
-        let radius = capillary.map_or(0.0, |liquid| liquid.meniscus().kelvin_radius);
+        let height = capillary.map_or(0.0, |liquid| liquid.meniscus().range());
         format!(
-            "matters where much of the gap is narrower than the meniscus, twice the Kelvin radius: here that radius is {}, {:.3} of the rms height",
-            format_si(radius, "m"),
-            radius / plan.outline.moments.rms_height()
+            "matters where much of the gap is narrower than the meniscus: here it is {} high, {:.3} of the rms height",
+            format_si(height, "m"),
+            height / plan.outline.moments.rms_height()
         )
     }
 
@@ -70,6 +73,27 @@ impl Hooks for Capillary {
                 liquid.humidity,
                 liquid.least_humidity(),
                 format_si(LEAST_KELVIN_RADIUS, "m"),
+            )
+        });
+        let liquid = plan.scene.capillary.as_ref();
+        let flat = liquid.filter(|liquid| liquid.is_flat()).map(|liquid| {
+            format!(
+                "the meniscus is {} high, less than a molecule of the liquid, for its contact angle of {:.4} degrees: no liquid bridges such a gap",
+                format_si(liquid.meniscus().range(), "m"),
+                liquid.contact_angle.to_degrees()
+            )
+        });
+        let rms_height = plan.outline.moments.rms_height();
+        let floods = |liquid: &&CapillaryScene| {
+            plan.scene.grid.boundary == Boundary::Periodic
+                && liquid.bridges()
+                && liquid.meniscus().range() > FLOODED * rms_height
+        };
+        let flooded = liquid.filter(floods).map(|liquid| {
+            format!(
+                "the meniscus, {} high, fills the gap of the whole cell, whose rms height is {}: what is found is its suction times the area of the cell",
+                format_si(liquid.meniscus().range(), "m"),
+                format_si(rms_height, "m")
             )
         });
         let odd = plan
@@ -105,6 +129,8 @@ impl Hooks for Capillary {
             )
         });
         dry.into_iter()
+            .chain(flat)
+            .chain(flooded)
             .chain(odd)
             .chain(tense)
             .chain(large)

@@ -11,6 +11,7 @@ mod exponential;
 mod lennard_jones;
 mod maugis_dugdale;
 mod meniscus;
+pub mod water;
 
 pub use adhesion_map::{AdhesionMap, LawField, Scaled};
 pub use balance::{Support, imbalance, net_pressure};

@@ -53,13 +53,24 @@ pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
         clauses.push(format!("the surfaces jump {}", jumps.join(" and ")));
     }
     if let Some(energy) = summary.hysteresis_energy {
-        clauses.push(format!("the loop loses {}", format_si(energy, "J")));
+        clauses.push(format!(
+            "the loop loses {}",
+            loss(energy, summary.hysteresis_uncertainty)
+        ));
     }
     let last = clauses.pop().unwrap_or_default();
     if clauses.is_empty() {
         format!("{last}.")
     } else {
         format!("{}, and {last}.", clauses.join(", "))
+    }
+}
+
+/// What a loop loses, J: at most so much where less than its uncertainty.
+pub(super) fn loss(energy: f64, uncertainty: Option<f64>) -> String {
+    match uncertainty.filter(|uncertainty| energy <= *uncertainty) {
+        Some(uncertainty) => format!("at most {}", format_si(energy + uncertainty, "J")),
+        None => format_si(energy, "J"),
     }
 }
 

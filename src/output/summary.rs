@@ -49,6 +49,8 @@ pub struct Summary {
     pub jump_off_steps: Vec<usize>,
     /// Energy lost over a path that returns to its start, J.
     pub hysteresis_energy: Option<f64>,
+    /// How far from it the energy may be, J, for what lies between the steps.
+    pub hysteresis_uncertainty: Option<f64>,
     /// The warnings printed on standard error.
     pub warnings: Vec<String>,
 }
@@ -150,6 +152,7 @@ mod tests {
             jump_in_steps: vec![2],
             jump_off_steps: vec![],
             hysteresis_energy: None,
+            hysteresis_uncertainty: None,
             warnings: vec![],
         };
         let place = tempfile::tempdir().unwrap();
@@ -180,6 +183,7 @@ mod tests {
             "jump_in_steps",
             "jump_off_steps",
             "hysteresis_energy",
+            "hysteresis_uncertainty",
             "warnings",
         ];
         assert_eq!(keys, expected);

@@ -142,6 +142,7 @@ pub(super) fn summary(
         jump_in_steps: end.jump_in_steps.clone(),
         jump_off_steps: end.jump_off_steps.clone(),
         hysteresis_energy: end.hysteresis_energy,
+        hysteresis_uncertainty: end.hysteresis_uncertainty,
         warnings,
     }
 }

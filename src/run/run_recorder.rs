@@ -122,6 +122,7 @@ impl<'a> RunRecorder<'a> {
             jump_off_steps: self.tallies.jump_off_steps.clone(),
             pull_off: self.tallies.pull_off,
             hysteresis_energy: None,
+            hysteresis_uncertainty: None,
             interrupted: true,
             unreachable: None,
             transforms: self.tallies.transforms,

@@ -19,6 +19,7 @@ pub(super) fn warnings_at_end(
     rounding(setup, device, &end.rows)
         .into_iter()
         .chain(pull_off)
+        .chain(hysteresis(end))
         .collect()
 }
 
@@ -27,7 +28,9 @@ fn rounding(setup: &Setup, device: &SelectedDevice, rows: &[StepRow]) -> Option<
     let asked = setup.scene.solver.tolerance;
     let short: Vec<&StepRow> = rows
         .iter()
-        .filter(|row| row.converged && row.residual.is_finite() && row.residual > asked)
+        // Where nothing bears, nothing is left to be resolved.
+        .filter(|row| row.converged && row.state != State::Separated)
+        .filter(|row| row.residual.is_finite() && row.residual > asked)
         .collect();
     let first = short.first()?.step;
     let most = short.iter().map(|row| row.residual).fold(0.0, f64::max);
@@ -43,6 +46,19 @@ fn rounding(setup: &Setup, device: &SelectedDevice, rows: &[StepRow]) -> Option<
         short.len(),
         rows.len(),
     ))
+}
+
+/// A warning if the steps of a loop that jumps are too long to tell what it loses.
+fn hysteresis(end: &WalkEnd) -> Option<String> {
+    let (energy, uncertainty) = end.hysteresis_energy.zip(end.hysteresis_uncertainty)?;
+    let jumps = !(end.jump_in_steps.is_empty() && end.jump_off_steps.is_empty());
+    (jumps && energy <= uncertainty).then(|| {
+        format!(
+            "hysteresis_energy, {}, is known to {} only: the steps of the loop are long against its jumps; take more of them",
+            format_si(energy, "J"),
+            format_si(uncertainty, "J")
+        )
+    })
 }
 
 /// A warning if the pull-off of a finished path is not known to the tolerance.

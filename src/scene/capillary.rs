@@ -6,15 +6,25 @@ use super::allowed::{Allowed, in_range};
 use super::keys;
 use super::reader::Reader;
 use super::{AdhesionScene, CapillaryScene, LawName};
-use crate::law::{Meniscus, least_humidity};
+use crate::law::water::{self, CRITICAL_TEMPERATURE};
+use crate::law::{LEAST_KELVIN_RADIUS, Meniscus, least_humidity};
 use crate::units::Dimension;
 
-/// Water at 298.15 K: surface tension (N/m) and molar volume (m^3/mol).
+/// Surface tension (N/m) and molar volume (m^3/mol) of water at [`ROOM`].
 ///
 /// Source: IAPWS R1-76(2014); IAPWS-95 density 997.05 kg/m^3.
-pub(super) const WATER: (f64, f64) = (0.07199, 1.8069e-5);
+const WATER: (f64, f64) = (0.07199, 1.8069e-5);
 /// Temperature where the scene gives none, K.
 pub(super) const ROOM: f64 = 298.15;
+
+/// Surface tension (N/m) and molar volume (m^3/mol) of water at a temperature, K; above its critical point they mean nothing.
+pub(super) fn water_at(temperature: f64) -> (f64, f64) {
+    let change = |of: fn(f64) -> f64| of(temperature) / of(ROOM);
+    (
+        WATER.0 * change(water::surface_tension),
+        WATER.1 * change(water::molar_volume),
+    )
+}
 
 const HUMIDITY: Allowed = Allowed::new(
     |humidity| (0.0..1.0).contains(&humidity),
@@ -36,32 +46,37 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
     }
     capillary.require(&["humidity"]);
     let humidity = capillary.quantity("humidity", Dimension::Dimensionless, HUMIDITY);
-    let [surface_tension, molar_volume, temperature, contact_angle] = [
-        (
-            "surface_tension",
-            WATER.0,
-            Dimension::ForcePerLength,
-            Allowed::POSITIVE,
-        ),
-        (
-            "molar_volume",
-            WATER.1,
-            Dimension::MolarVolume,
-            Allowed::POSITIVE,
-        ),
-        (
-            "temperature",
-            ROOM,
-            Dimension::Temperature,
-            Allowed::POSITIVE,
-        ),
-        ("contact_angle", 0.0, Dimension::Angle, ANGLE),
-    ]
-    .map(|(key, default, dimension, allowed)| {
+    let or = |key: &str, default: f64, dimension, allowed| {
         capillary.or(key, default, |key| {
             capillary.quantity(key, dimension, allowed)
         })
-    });
+    };
+    let temperature = or(
+        "temperature",
+        ROOM,
+        Dimension::Temperature,
+        Allowed::POSITIVE,
+    );
+    let contact_angle = or("contact_angle", 0.0, Dimension::Angle, ANGLE);
+    let is_water = !(capillary.has("surface_tension") && capillary.has("molar_volume"));
+    if let Some(temperature) = temperature.filter(|at| is_water && *at >= CRITICAL_TEMPERATURE) {
+        capillary.conflict(
+            "temperature",
+            format!(
+                "{temperature} K is above the critical point of water, {CRITICAL_TEMPERATURE} K: give surface_tension and molar_volume of the liquid"
+            ),
+        );
+        return None;
+    }
+    let water = water_at(temperature.unwrap_or(ROOM));
+    let positive = Allowed::POSITIVE;
+    let surface_tension = or(
+        "surface_tension",
+        water.0,
+        Dimension::ForcePerLength,
+        positive,
+    );
+    let molar_volume = or("molar_volume", water.1, Dimension::MolarVolume, positive);
     let found = CapillaryScene {
         humidity: humidity?,
         surface_tension: surface_tension?,
@@ -107,6 +122,11 @@ impl CapillaryScene {
     #[doc(hidden)]
     pub fn bridges(&self) -> bool {
         self.humidity > 0.0 && self.meniscus().bridges()
+    }
+
+    /// Whether the contact angle leaves a meniscus that is as high as a molecule.
+    pub(crate) fn is_flat(&self) -> bool {
+        self.bridges() && self.meniscus().range() < LEAST_KELVIN_RADIUS
     }
 
     /// The equivalent cohesive law; `None` if the air is too dry for a liquid.

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::capillary::{ROOM, WATER};
+use super::capillary::{ROOM, water_at};
 use super::loading::PULL_OFF_TOLERANCE;
 use super::solid::plane_compliance;
 use super::*;
@@ -102,11 +102,18 @@ impl SolidScene {
 impl CapillaryScene {
     /// Water at 298.15 K that wets both surfaces, at a relative humidity from 0 to below 1.
     pub fn water(humidity: f64) -> Self {
+        CapillaryScene::water_at(humidity, ROOM)
+    }
+
+    /// The same at another temperature, K, below the critical one of water, 647 K, with its surface tension and molar volume
+    /// there.
+    pub fn water_at(humidity: f64, temperature: f64) -> Self {
+        let (surface_tension, molar_volume) = water_at(temperature);
         CapillaryScene {
             humidity,
-            surface_tension: WATER.0,
-            molar_volume: WATER.1,
-            temperature: ROOM,
+            surface_tension,
+            molar_volume,
+            temperature,
             contact_angle: 0.0,
         }
     }

@@ -8,6 +8,7 @@
 
 use super::between::{Between, Place, Search};
 use super::evaluation::{Evaluation, PointState};
+use super::hysteresis::Hysteresis;
 use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::walker::Carried;
@@ -34,8 +35,6 @@ const KEEPING: usize = 2;
 const SURE: [f64; 2] = [0.7, 2.0];
 /// Halvings of a step at most.
 const MOST_HALVINGS: usize = 8;
-/// A path is closed if its ends agree to this share of its span.
-const CLOSED: f64 = 1e-9;
 
 /// Which way a step jumped.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -155,10 +154,13 @@ impl Jumps {
                     [&before.row, row].map(|row| row.elastic_energy - row.adhesive_energy);
                 let least = (LEAST_SHARE * work * changed * self.pixel_area)
                     .max(self.tolerance * (energies[0] + energies[1]));
+                // A force that is level and then falls may lose nothing by the straight line between two long steps.
+                let state_changed = before.row.state != row.state;
+                let examined = |piece: Piece| {
+                    state_changed || piece.lost.abs() > least && piece.bends(before.slope)
+                };
                 match Piece::between(self.prescribed, &before.row, row) {
-                    Some(piece)
-                        if changed > 0.0 && piece.lost > least && piece.bends(before.slope) =>
-                    {
+                    Some(piece) if changed > 0.0 && examined(piece) => {
                         Verdict::Perhaps { way, least }
                     }
                     _ => Verdict::Follows,
@@ -187,39 +189,26 @@ impl Jumps {
         });
     }
 
-    /// Energy dissipated over a path of approach or mean gap that returns to its start.
-    pub fn hysteresis(&self, rows: &[StepRow]) -> Option<f64> {
-        let place = |row: &StepRow| match self.prescribed.control {
-            Control::Approach => row.approach,
-            Control::MeanGap => row.mean_gap.map(|gap| -gap),
-            Control::Pressure | Control::Force => None,
-        };
-        let (first, last) = (place(rows.first()?)?, place(rows.last()?)?);
-        let places: Option<Vec<f64>> = rows.iter().map(place).collect();
-        let places = places?;
-        let span = places.iter().copied().fold(f64::NEG_INFINITY, f64::max)
-            - places.iter().copied().fold(f64::INFINITY, f64::min);
-        if rows.len() < 3
-            || !rows.iter().all(|row| row.converged)
-            || (last - first).abs() > CLOSED * span
-        {
-            return None;
-        }
-        Some(
-            rows.windows(2)
-                .zip(places.windows(2))
-                .map(|(row, place)| 0.5 * (row[0].force + row[1].force) * (place[1] - place[0]))
-                .sum(),
-        )
+    /// What a path that returns to its start loses, with its rows and the numbers of those that jumped.
+    pub(super) fn hysteresis(
+        &self,
+        path: &[f64],
+        rows: &[StepRow],
+        jumped: &[usize],
+    ) -> Option<Hysteresis> {
+        Hysteresis::of_loop(self.prescribed, path, rows, |row| {
+            jumped.contains(&row.step)
+        })
     }
 }
 
 /// The quantity that a path prescribes.
 #[derive(Clone, Copy, Debug)]
-struct Prescribed {
-    control: Control,
+pub(super) struct Prescribed {
+    /// What is prescribed.
+    pub(super) control: Control,
     /// Spring between the prescribed approach and the body, N/m.
-    spring: Option<f64>,
+    pub(super) spring: Option<f64>,
 }
 
 impl Prescribed {
@@ -233,22 +222,26 @@ impl Prescribed {
 
 /// A piece of a path between two solved states.
 #[derive(Clone, Copy, Debug)]
-struct Piece {
+pub(super) struct Piece {
     /// Change of approach, m.
     moved: f64,
     /// Change of force, N.
     change: f64,
     /// Work done less what is stored and what the solid dissipates, J, where the force follows the
     /// straight line.
-    lost: f64,
+    pub(super) lost: f64,
     /// Error of the work if the piece jumps at one of its ends, J: it falls with the length of the piece,
     /// whether force or position is prescribed.
-    doubt: f64,
+    pub(super) doubt: f64,
 }
 
 impl Piece {
     /// The piece between two rows; `None` where one has no position.
-    fn between(prescribed: Prescribed, before: &StepRow, row: &StepRow) -> Option<Piece> {
+    pub(super) fn between(
+        prescribed: Prescribed,
+        before: &StepRow,
+        row: &StepRow,
+    ) -> Option<Piece> {
         let moved = row.approach? - before.approach?;
         let change = row.force - before.force;
         Some(Piece {
@@ -294,7 +287,7 @@ impl Piece {
                 (own - slope).abs() > KINK * steepest
             }
             // A parabola that starts level loses up to a sixth of the uncertainty.
-            (None, Some(_)) => self.lost > self.doubt / 6.0,
+            (None, Some(_)) => self.lost.abs() > self.doubt / 6.0,
             (_, None) => false,
         }
     }
@@ -343,7 +336,9 @@ pub(super) fn confirm(
         if half.size() <= least {
             return Ok(Some(false));
         }
-        shrinking = match half.size() < SHRINKS * whole.size() {
+        // Of a jump the force keeps its change, whatever the losses of the halves are.
+        let shrinks = half.size() < SHRINKS * whole.size() && half.doubt < SHRINKS * whole.doubt;
+        shrinking = match shrinks {
             true => shrinking + 1,
             false => 0,
         };

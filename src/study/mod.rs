@@ -11,6 +11,7 @@ mod cost;
 mod cut_edges;
 mod evaluation;
 mod hooks;
+mod hysteresis;
 mod jumps;
 mod memory;
 mod observer;

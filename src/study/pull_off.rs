@@ -5,12 +5,16 @@
 //! position is prescribed it is the greatest tension that the path passes.
 
 use super::between::{Between, Place, Search};
+use super::hysteresis::span;
 use super::observer::WalkEnd;
 use super::row::{State, StepRow};
 use super::setup::Setup;
 use super::walker::Carried;
 use crate::backend::BackendError;
 use crate::scene::{Control, LoadingScene};
+
+/// Positions that differ by less than this share of a path's span are one: rounding in single precision leaves as much.
+const STILL: f64 = 1e-6;
 
 /// Loads tried for one pull-off at most. Halving gains a thousand in ten, and the least tolerance is 1e-6.
 const MOST_TRIALS: usize = 60;
@@ -61,22 +65,37 @@ pub enum Tension {
 
 impl Tension {
     /// Of the end of a path.
+    ///
+    /// A prescribed position has passed pull-off where the surfaces go on to part after the greatest tension. The tension on
+    /// the way to a contact is none of its, and one that a path ends at or turns back from has only held.
     pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
-        let under_tension = end.rows.iter().filter(|row| row.force < 0.0);
-        let greatest = under_tension.min_by(|a, b| a.force.total_cmp(&b.force));
-        let held = greatest.map_or(0.0, |row| -row.force);
+        let rows = &end.rows;
+        let ways = (!is_load(loading)).then(|| ways(rows, loading.control));
+        let greatest = |way: Option<Way>| {
+            let under_tension = rows.iter().enumerate().filter(|(_, row)| row.force < 0.0);
+            let of_way = under_tension.filter(|&(index, _)| match (&ways, way) {
+                (Some(ways), Some(way)) => ways[index] == way,
+                _ => true,
+            });
+            of_way
+                .map(|(_, row)| (row.step, -row.force))
+                .min_by(|a, b| b.1.total_cmp(&a.1))
+        };
+        let of_all = greatest(None);
+        let held = of_all.map_or(0.0, |(_, force)| force);
         if let Some(pull_off) = end.pull_off.filter(|pull_off| pull_off.lower >= held) {
             return Tension::LetGo(pull_off);
         }
-        let Some(row) = greatest else {
+        let Some((step, force)) = of_all else {
             return Tension::None;
         };
-        let (step, force) = (row.step, held);
-        let recedes = row.state == State::Separated || recede(&end.rows[step - 1..]);
-        match is_load(loading) || !recedes {
-            true => Tension::Holds { step, force },
-            false => Tension::Passed { step, force },
+        if ways.is_some()
+            && let Some((step, force)) = greatest(Some(Way::Out))
+            && greatest(Some(Way::Held)).is_none_or(|(_, held)| held <= force)
+        {
+            return Tension::Passed { step, force };
         }
+        Tension::Holds { step, force }
     }
 
     /// The pull-off force, if the path shows it.
@@ -106,10 +125,40 @@ impl Tension {
     }
 }
 
-/// Whether the surfaces part on the way through these steps.
-fn recede(rows: &[StepRow]) -> bool {
-    rows.windows(2)
-        .any(|pair| pair[1].state == State::Separated || pair[1].mean_gap > pair[0].mean_gap)
+/// How a path under a prescribed position goes on from a step.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Way {
+    /// The surfaces part further, or have parted.
+    Out,
+    /// They have parted up to here, and go no further.
+    Held,
+    /// They come together.
+    In,
+}
+
+/// How a path goes on from each of its steps.
+fn ways(rows: &[StepRow], control: Control) -> Vec<Way> {
+    let places: Vec<Option<f64>> = rows.iter().map(|row| row.place(control)).collect();
+    let known: Vec<f64> = places.iter().copied().flatten().collect();
+    let still = STILL * span(&known);
+    // Whether a step has the surfaces further apart than another; `None` where both are at one place.
+    let is_apart = |from: usize, to: usize| match (places[from], places[to]) {
+        _ if rows[to].state == State::Separated => Some(true),
+        (Some(here), Some(there)) if (there - here).abs() > still => Some(there < here),
+        _ => None,
+    };
+    (0..rows.len())
+        .map(|index| {
+            let next = (index + 1..rows.len()).find_map(|to| is_apart(index, to));
+            if rows[index].state == State::Separated || next == Some(true) {
+                return Way::Out;
+            }
+            match (0..index).rev().find_map(|from| is_apart(index, from)) {
+                Some(true) => Way::In,
+                Some(false) | None => Way::Held,
+            }
+        })
+        .collect()
 }
 
 fn is_load(loading: &LoadingScene) -> bool {

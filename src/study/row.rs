@@ -2,6 +2,8 @@
 
 use serde::Deserialize;
 
+use crate::scene::Control;
+
 /// Contact state of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
@@ -88,6 +90,16 @@ impl StepRow {
     pub fn column(&self, name: &str) -> Option<f64> {
         let found = self.columns.iter().find(|(column, _)| column.name == name);
         found.and_then(|(_, value)| *value)
+    }
+
+    /// How far a prescribed position brings the surfaces together, m: the approach, or the mean gap with the other sign. `None` under a
+    /// load, and in a step without a position.
+    pub(super) fn place(&self, control: Control) -> Option<f64> {
+        match control {
+            Control::Approach => self.approach,
+            Control::MeanGap => self.mean_gap.map(|gap| -gap),
+            Control::Pressure | Control::Force => None,
+        }
     }
 
     /// Energy that the solid has dissipated since the path began, J.

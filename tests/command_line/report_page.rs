@@ -461,13 +461,14 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
     assert!((conductance * resistance - 1.0).abs() < 1e-12);
     assert_eq!(binary::number(&rows[0], "resistance"), None);
     // The work of the loop ends at what it loses.
-    let lost = binary::summary(&out)["hysteresis_energy"]
-        .as_f64()
-        .expect("a loop");
+    let summary = binary::summary(&out);
+    let [lost, uncertainty] = ["hysteresis_energy", "hysteresis_uncertainty"]
+        .map(|name| summary[name].as_f64().expect("a loop"));
+    let at_most = format_si(lost + uncertainty, "J");
     let lost = format_si(lost, "J");
     for part in [
         "work done against approach",
-        &format!("<dt>Hysteresis</dt><dd>{lost}<"),
+        &format!("<dt>Hysteresis</dt><dd>at most {at_most}<"),
         &format!("<td class=\"number\">{lost}</td><td>separated"),
     ] {
         assert!(page.contains(part), "{part} is missing in {page}");

@@ -6,7 +6,7 @@ use tabor::theory::capillary::Meniscus;
 use tabor::theory::maugis_dugdale::MaugisDugdale;
 use tabor::theory::tabor_map::{Sphere, maugis_parameter};
 
-use crate::bench::solve_table;
+use crate::bench::{setup, solve_table};
 use crate::shared::trials::tests;
 
 const RADIUS: f64 = 1e-6;
@@ -84,4 +84,49 @@ fn dry_air_bridges_nothing() {
     );
 }
 
-tests![pull_off_at_half_humidity, dry_air_bridges_nothing,];
+/// A scene's liquid is water at the temperature that the scene gives.
+fn water_has_its_values_at_the_temperature() {
+    let water = |more: &str| {
+        let text = scene(5e9, 0.5, 2.4e-7, &[-3e-9])
+            .replace("surface_tension = 0.0728", "")
+            .replace("molar_volume = 1.8e-5", more);
+        let liquid = setup(&text).scene.capillary.expect("a liquid");
+        (liquid.surface_tension, liquid.molar_volume)
+    };
+    assert_eq!(water(""), (0.07199, 1.8069e-5));
+    assert_eq!(water("temperature = 298.15"), water(""));
+    // IAPWS: 58.91 mN/m, and 18.0153 g/mol over 958.35 kg/m^3 at 100 degrees Celsius, next to the rounding of the values at 25.
+    let (tension, volume) = water("temperature = 373.15");
+    assert!((tension / 0.05891 - 1.0).abs() < 5e-4, "{tension}");
+    assert!((volume / 1.87982e-5 - 1.0).abs() < 5e-4, "{volume}");
+    // What the scene gives stays.
+    let (tension, volume) = water("temperature = 373.15\nsurface_tension = 0.06");
+    assert_eq!(tension, 0.06);
+    assert!((volume / 1.87982e-5 - 1.0).abs() < 5e-4, "{volume}");
+}
+
+/// A meniscus lower than a molecule, and one that fills the whole cell, are warned of.
+fn implausible_menisci_are_warned_of() {
+    let warnings = |from: &str, to: &str, boundary: &str| {
+        let text = scene(5e9, 0.5, 2.4e-7, &[-3e-9])
+            .replace(from, to)
+            .replace("\"free\"", boundary);
+        setup(&text).warnings.join("\n")
+    };
+    let plain = warnings("", "", "\"free\"");
+    let flat = warnings("contact_angle = 20", "contact_angle = 89.5", "\"free\"");
+    let damp = warnings("humidity = 0.5", "humidity = 0.99", "\"periodic\"");
+    assert!(
+        !plain.contains("molecule") && !plain.contains("fills"),
+        "{plain}"
+    );
+    assert!(flat.contains("less than a molecule"), "{flat}");
+    assert!(damp.contains("fills the gap of the whole cell"), "{damp}");
+}
+
+tests![
+    pull_off_at_half_humidity,
+    dry_air_bridges_nothing,
+    water_has_its_values_at_the_temperature,
+    implausible_menisci_are_warned_of,
+];

@@ -5,7 +5,7 @@ use tabor::kernel::Status;
 use tabor::solver::{ContactSolver, Hold, Load, Problem, Start};
 use tabor::study::{PointState, dissipation};
 
-use crate::bench::{Solved, setup, solve};
+use crate::bench::{Solved, setup, solve, solve_on};
 use crate::shared::trials::tests;
 
 /// A rough cell of side 1 and modulus 1; `adhesion` and `loading` are the lines of those tables.
@@ -286,6 +286,82 @@ fn rough_loops() {
     }
 }
 
+/// Steps that are long against its jumps find them nevertheless, and what a loop loses is known to what it says: a force that is level
+/// and falls in one step may lose nothing by a straight line.
+fn long_steps_find_the_jumps_and_say_how_well_the_loss_is_known() {
+    // Spheres on whose 128 points the law is resolved.
+    let loop_of = |law: &str,
+                   [size, radius, modulus, range, start, inmost]: [&str; 6],
+                   steps: usize| {
+        let solved = solve(&format!(
+            "[grid]\npoints = 128\nsize = \"{size}\"\nboundary = \"free\"\n[solid]\ncontact_modulus = \"{modulus}\"\n\
+             [[surface]]\nkind = \"sphere\"\nradius = \"{radius}\"\n\
+             [adhesion]\nlaw = \"{law}\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"{range}\"\n\
+             [loading]\ncontrol = \"approach\"\nstart = \"{start}\"\n\
+             [[loading.ramp]]\nto = \"{inmost}\"\nsteps = {steps}\n[[loading.ramp]]\nto = \"{start}\"\nsteps = {steps}\n"
+        ));
+        let end = &solved.end;
+        let loss = end.hysteresis_energy.expect("a closed path");
+        let uncertainty = end.hysteresis_uncertainty.expect("of a law");
+        let jumps = [&end.jump_in_steps, &end.jump_off_steps].map(Vec::len);
+        println!("{law}, {steps} steps: {loss:.3e} J, known to {uncertainty:.1e}, jumps {jumps:?}");
+        assert_eq!(
+            jumps,
+            [1, 1],
+            "{law}, {steps} steps: {:?} {:?}",
+            end.jump_in_steps,
+            end.jump_off_steps
+        );
+        (loss, uncertainty)
+    };
+    for (law, sphere) in [
+        (
+            "lennard-jones",
+            ["40 um", "50 um", "5 MPa", "80 nm", "-900 nm", "300 nm"],
+        ),
+        (
+            "maugis-dugdale",
+            ["60 um", "100 um", "1 MPa", "250 nm", "-1.6 um", "0.6 um"],
+        ),
+    ] {
+        let (truth, of_truth) = loop_of(law, sphere, 40);
+        for steps in [2, 3, 5, 8, 12] {
+            let (loss, uncertainty) = loop_of(law, sphere, steps);
+            assert!(
+                (loss - truth).abs() <= uncertainty + of_truth,
+                "{law}, {steps} steps"
+            );
+        }
+    }
+}
+
+/// A loop through a spring is closed by its far end, which the path prescribes: the surfaces return to the tolerance alone.
+fn a_loop_through_a_spring_is_closed_by_its_far_end() {
+    let scene = |precision: &str| {
+        format!(
+            "[grid]\npoints = 64\nsize = \"40 um\"\nboundary = \"free\"\n[solid]\ncontact_modulus = \"50 MPa\"\n\
+             [[surface]]\nkind = \"sphere\"\nradius = \"50 um\"\n\
+             [adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"200 nm\"\n\
+             [loading]\ncontrol = \"approach\"\nspring = \"20 N/m\"\nstart = \"1 um\"\n\
+             [[loading.ramp]]\nto = \"-3 um\"\nsteps = 30\n[[loading.ramp]]\nto = \"1 um\"\nsteps = 30\n\
+             [solver]\ntolerance = 1e-4\nprecision = \"{precision}\"\n"
+        )
+    };
+    let [double, single] = ["double", "single"].map(|precision| {
+        let text = scene(precision);
+        let solved = match precision {
+            "single" => solve_on(&text, &|| cpu::single(None)),
+            _ => solve(&text),
+        };
+        let loss = solved.end.hysteresis_energy.expect("a closed path");
+        let uncertainty = solved.end.hysteresis_uncertainty.expect("of a law");
+        println!("{precision}: {loss:.4e} J, known to {uncertainty:.1e}");
+        (loss, uncertainty)
+    });
+    assert!(double.0 > double.1, "the loop loses more than is doubted");
+    assert!((single.0 - double.0).abs() <= double.1 + single.1);
+}
+
 /// Without adhesion loading and unloading are one curve.
 fn no_adhesion_no_loop() {
     let path = loop_path(3.0 * RMS_HEIGHT, 0.5 * RMS_HEIGHT, 12);
@@ -311,4 +387,6 @@ tests![
     a_loop_is_the_sum_of_its_jumps,
     rough_loops,
     no_adhesion_no_loop,
+    long_steps_find_the_jumps_and_say_how_well_the_loss_is_known,
+    a_loop_through_a_spring_is_closed_by_its_far_end,
 ];

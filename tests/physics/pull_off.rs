@@ -172,9 +172,60 @@ fn what_still_holds_is_no_pull_off() {
     assert_eq!(passed.bounds(), None);
 }
 
+/// Under a prescribed position pull-off is on the way out: neither the tension that draws the surfaces together nor one from
+/// which the path turns back is.
+fn pull_off_is_on_the_way_out() {
+    let says = |path: &[f64]| {
+        let solved = sphere("", "", &format!("control = \"approach\"\npath = {path:?}"));
+        let steps = solved.rows().map(|row| row.step).collect::<Vec<_>>();
+        println!(
+            "{path:?}: {:?}",
+            solved.rows().map(|row| row.force).collect::<Vec<_>>()
+        );
+        assert_eq!(steps.len(), path.len());
+        Tension::at_end(&solved.setup.scene.loading, &solved.end)
+    };
+    let out = [0.5, 0.0, -0.5, -0.7, -0.9, -1.5];
+    let passed = says(&out);
+    let Tension::Passed { step, force } = passed else {
+        panic!("{passed:?}");
+    };
+    // Whatever follows once they have parted.
+    let again = says(&[&out[..], &[-0.5, 0.5]].concat());
+    assert_eq!(again, passed);
+    // The way in has tension, too, and the surfaces stay together.
+    for path in [
+        &[-0.3, 0.5, 0.4][..],
+        &[-0.3, 0.5, 0.4, 0.6],
+        &[-1.5, -0.3, 0.5, 0.3, 0.4],
+    ] {
+        let held = says(path);
+        let first = 1 + path
+            .iter()
+            .position(|place| *place == -0.3)
+            .expect("a place");
+        assert!(
+            matches!(held, Tension::Holds { step, .. } if step == first),
+            "{held:?}"
+        );
+    }
+    // One that turns back half way to it has held more than was passed before.
+    let turned = says(&[0.5, out[step - 1], -1.5, 0.5, 0.0, -0.5]);
+    assert!(
+        matches!(turned, Tension::Passed { step: 2, force: passed } if (passed / force - 1.0).abs() < 1e-3),
+        "{turned:?}"
+    );
+    let turned = says(&[-0.3, -0.31, 0.5, 0.0, -0.5, 0.5]);
+    assert!(
+        matches!(turned, Tension::Holds { step: 5, .. }),
+        "{turned:?}"
+    );
+}
+
 tests![
     bounds_hem_in_the_closed_form,
     rows_stay_as_they_are,
     time_goes_with_the_load,
     what_still_holds_is_no_pull_off,
+    pull_off_is_on_the_way_out,
 ];

@@ -13,7 +13,7 @@ use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::picture::Load;
 use super::plot::curves::{self, Quantity};
-use super::sentence::{AtZeroLoad, per_cent, sentence, step_words};
+use super::sentence::{AtZeroLoad, loss, per_cent, sentence, step_words};
 use super::summary::Summary;
 use super::visible::visible;
 use crate::effect::Effect;
@@ -276,9 +276,15 @@ impl Report<'_> {
                 found.push((name, at.len().to_string(), step_words(at)));
             }
         }
-        if let Some(energy) = self.summary.and_then(|summary| summary.hysteresis_energy) {
+        if let Some(summary) = self.summary
+            && let Some(energy) = summary.hysteresis_energy
+        {
             let note = "lost over the loop".to_owned();
-            found.push(("Hysteresis", format_si(energy, "J"), note));
+            found.push((
+                "Hysteresis",
+                loss(energy, summary.hysteresis_uncertainty),
+                note,
+            ));
         }
         if let Some(regime) = &self.setup.regime
             && let Some(tabor) = regime.tabor
