@@ -18,6 +18,9 @@ use crate::scene::Control;
 /// Losses below this share of w times the area that changed state are ignored: contact edges move from pixel
 /// to pixel, which makes the force uneven by as much.
 const LEAST_SHARE: f64 = 0.01;
+/// A step in which the surfaces come together or part is examined, whatever it loses, if the force changes by more than this share of
+/// itself.
+const FALLS: f64 = 0.1;
 /// A curve has a kink where its slopes on the two sides differ by more than this share of the steeper.
 const KINK: f64 = 0.3;
 /// A half with less than this share of the whole's loss is smooth: it falls to a quarter, or to a third beside
@@ -155,9 +158,12 @@ impl Jumps {
                 let least = (LEAST_SHARE * work * changed * self.pixel_area)
                     .max(self.tolerance * (energies[0] + energies[1]));
                 // A force that is level and then falls may lose nothing by the straight line between two long steps.
-                let state_changed = before.row.state != row.state;
+                let greatest = before.row.force.abs().max(row.force.abs());
+                let falls = |piece: Piece| {
+                    before.row.state != row.state && piece.change.abs() > FALLS * greatest
+                };
                 let examined = |piece: Piece| {
-                    state_changed || piece.lost.abs() > least && piece.bends(before.slope)
+                    falls(piece) || piece.lost.abs() > least && piece.bends(before.slope)
                 };
                 match Piece::between(self.prescribed, &before.row, row) {
                     Some(piece) if changed > 0.0 && examined(piece) => {
