@@ -218,6 +218,8 @@ def test_scenes_to_begin_with(kind, tmp_path):
     assert scene.path_of_file == tmp_path / kind / "scene.toml" and scene.heights().ndim == 2
     with pytest.raises(tabor.TaborError, match="is there already"):
         tabor.Scene.new(kind, tmp_path / kind)
+    with pytest.raises(tabor.SceneError, match=f"^kind: one of .*, not '{kind}s'; did you mean '{kind}'\\?$"):
+        tabor.Scene.new(kind + "s", tmp_path / "other")
 
 
 def test_a_run_as_a_dataset(run):

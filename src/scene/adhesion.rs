@@ -10,7 +10,7 @@ use super::reader::Reader;
 use super::{
     AdhesionMap, AdhesionScene, Boundary, GridScene, LawName, PatternKind, Range, Treatment,
 };
-use crate::units::{self, Dimension};
+use crate::units::{self, Dimension, format_si};
 
 /// Reads `[adhesion]`: `Some(None)` if the scene has none, `None` after a mistake. Paths are
 /// relative to `folder`; `relaxes` is true for a viscoelastic solid.
@@ -90,13 +90,19 @@ fn map(
             PatternKind::Checker => &size[..],
             PatternKind::Stripe => &size[..1],
         };
-        if sides.iter().any(|side| {
-            let periods = side / period;
+        let odd = sides.iter().zip(["x", "y"]).find(|(side, _)| {
+            let periods = *side / period;
             periods.round() < 1.0 || (periods - periods.round()).abs() > DIVIDES * periods
-        }) {
+        });
+        if let Some((side, axis)) = odd {
+            let periods = (side / period).round().max(1.0);
             pattern.conflict(
                 "period",
-                "does not divide the size of the periodic cell; take a whole fraction of it",
+                format!(
+                    "does not divide the size of the periodic cell, {} along {axis}; take a whole fraction of it: {periods} periods are {:.9e} m each",
+                    format_si(*side, "m"),
+                    side / periods
+                ),
             );
             return None;
         }

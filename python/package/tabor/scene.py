@@ -36,6 +36,9 @@ CONTROLS = {
     "mean_gap": ("mean-gap", "length"),
 }
 
+#: What `Scene.new` writes.
+KINDS = ("sphere", "rough", "afm", "pillars", "seal", "mems")
+
 #: Loads of a path, or seconds: one, or many.
 Loads: TypeAlias = Union[Quantity, Iterable[Quantity], npt.NDArray[Any]]
 
@@ -218,7 +221,12 @@ class Scene:
         """
         from .program import call
 
-        call(["new", str(kind), os.fspath(folder)], True)
+        if kind not in KINDS:
+            from difflib import get_close_matches
+
+            near = "".join(f"; did you mean {name!r}?" for name in get_close_matches(str(kind), KINDS, 1))
+            raise SceneError(f"kind: one of {', '.join(KINDS)}, not {kind!r}{near}")
+        call(["new", kind, os.fspath(folder)], True)
         return cls.read(Path(folder) / "scene.toml")
 
     def surface(self) -> tuple[Array, tuple[float, float]]:
