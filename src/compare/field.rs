@@ -214,7 +214,21 @@ pub(super) fn dmt(
     make_backend: MakeBackend,
     table: &mut Table,
 ) -> Result<(), CompareError> {
-    let setup = &comparison.setup;
+    let adhesion = comparison
+        .setup
+        .scene
+        .adhesion
+        .clone()
+        .map(|adhesion| AdhesionScene {
+            treatment: Treatment::Dmt,
+            ..adhesion
+        });
+    // The law of the treatment, whose automatic taper is none: that of the loads below.
+    let treated = Scene {
+        adhesion: adhesion.clone(),
+        ..comparison.setup.scene.clone()
+    };
+    let setup = &Setup::new(treated, comparison.setup.surface.clone());
     let law: Law = setup.law;
     let peak = law.peak_tension();
     let unit = setup.scene.solid.contact_modulus * setup.statistics.moments.rms_slope();
@@ -246,10 +260,6 @@ pub(super) fn dmt(
     if let Some(state) = pull_off {
         table.add(state, Some(tension), limit)?;
     }
-    let adhesion = setup.scene.adhesion.clone().map(|adhesion| AdhesionScene {
-        treatment: Treatment::Dmt,
-        ..adhesion
-    });
     let loads: Vec<f64> = comparison.carried(tension).collect();
     let keep = |state: State, _: &Evaluation, converged: bool| {
         table.add(state, Some(tension), unconverged(converged).or(limit))?;

@@ -74,8 +74,8 @@ impl Hooks for Relaxation {
         HostBytes {
             // The offset of the surface by its history, and the problem of a duration.
             kept: DOUBLE * (sizes.solved + sizes.points),
-            // The displacement, padded heights, and a pressure of a spring as it is read.
-            passing: 3 * DOUBLE * sizes.solved + EVALUATION * sizes.points,
+            // The displacement beside the old one, or the pressure of a spring as it is read beside the results.
+            passing: DOUBLE * sizes.solved + EVALUATION * sizes.points,
             ..HostBytes::default()
         }
     }

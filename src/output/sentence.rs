@@ -4,6 +4,8 @@ use super::summary::Summary;
 use crate::study::{State, StepRow};
 use crate::units::format_si;
 
+/// Loads below this share of the greatest are none: a treatment that searches for its load meets it to as much.
+const UNLOADED: f64 = 1e-6;
 /// Most steps that are named.
 const NAMED: usize = 6;
 
@@ -52,12 +54,7 @@ pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
     if !jumps.is_empty() {
         clauses.push(format!("the surfaces jump {}", jumps.join(" and ")));
     }
-    if let Some(energy) = summary.hysteresis_energy {
-        clauses.push(format!(
-            "the loop loses {}",
-            loss(energy, summary.hysteresis_uncertainty)
-        ));
-    }
+    clauses.extend(loss(summary).map(|lost| format!("the loop loses {lost}")));
     let last = clauses.pop().unwrap_or_default();
     if clauses.is_empty() {
         format!("{last}.")
@@ -66,11 +63,15 @@ pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
     }
 }
 
-/// What a loop loses, J: at most so much where less than its uncertainty.
-pub(super) fn loss(energy: f64, uncertainty: Option<f64>) -> String {
-    match uncertainty.filter(|uncertainty| energy <= *uncertainty) {
-        Some(uncertainty) => format!("at most {}", format_si(energy + uncertainty, "J")),
-        None => format_si(energy, "J"),
+/// What a loop loses, J: at most so much where that is less than its uncertainty, and nothing to speak of where no step of it jumps.
+pub(super) fn loss(summary: &Summary) -> Option<String> {
+    let energy = summary.hysteresis_energy?;
+    let jumps = !(summary.jump_in_steps.is_empty() && summary.jump_off_steps.is_empty());
+    match summary.hysteresis_uncertainty {
+        Some(uncertainty) if energy <= uncertainty => {
+            jumps.then(|| format!("at most {}", format_si(energy + uncertainty, "J")))
+        }
+        _ => Some(format_si(energy, "J")),
     }
 }
 
@@ -91,13 +92,17 @@ impl AtZeroLoad {
             .enumerate()
             .max_by(|a, b| a.1.force.total_cmp(&b.1.force))?
             .0;
-        let unloaded = |row: &StepRow| row.converged && row.force <= 0.0;
+        let none = UNLOADED * rows[greatest].force;
+        // Without attraction nothing is left at zero load.
+        let unloaded = |row: &StepRow| {
+            row.converged && (row.force <= 0.0 || row.force <= none && row.adhesive_energy < 0.0)
+        };
         let index = greatest + rows[greatest..].iter().position(unloaded)?;
         let [before, row] = [&rows[index.checked_sub(1)?], &rows[index]];
         let holds = row.state != State::Separated && index > greatest && before.force > 0.0;
         holds.then(|| AtZeroLoad {
             index,
-            share: before.force / (before.force - row.force),
+            share: before.force / (before.force - row.force.min(0.0)),
         })
     }
 

@@ -5,6 +5,9 @@ use crate::scene::{LoadingScene, Precision};
 use crate::study::{Planned, PullOff, Setup, State, StepRow, Tension, WalkEnd};
 use crate::units::format_si;
 
+/// Forces that differ by this share of the greatest are one.
+const ROUNDING: f64 = 1e-9;
+
 /// Warnings of a path that ended: steps that rounding ended, and a pull-off that is not known.
 pub(super) fn warnings_at_end(
     setup: &Setup,
@@ -64,17 +67,23 @@ fn hysteresis(end: &WalkEnd) -> Option<String> {
 /// A warning if the pull-off of a finished path is not known to the tolerance.
 fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
+    let forces = end.rows.iter().map(|row| row.force.abs());
+    let greatest = forces.fold(0.0, f64::max);
     match Tension::at_end(loading, end) {
-        Tension::Holds { step, force } if end.rows[step - 1].state == State::Contact => {
+        Tension::Holds { step, force } if end.rows[step - 1].state != State::Separated => {
+            let what = match end.rows[step - 1].state {
+                State::Contact => "the contact",
+                _ => "the attraction",
+            };
             Some(format!(
-                "the contact held {} in step {step}, the greatest tension of the path: its pull-off is beyond; extend the path until it lets go",
+                "{what} held {} in step {step}, the greatest tension of the path: its pull-off is beyond; extend the path until it lets go",
                 newtons(force)
             ))
         }
         Tension::LetGo(PullOff { lower, upper, .. })
             if loading.pull_off_tolerance > 0.0
-                && lower > 0.0
-                && upper - lower > loading.pull_off_tolerance * upper * (1.0 + f64::EPSILON) =>
+                && upper > ROUNDING * greatest
+                && upper - lower > (loading.pull_off_tolerance + ROUNDING) * upper =>
         {
             Some(format!(
                 "pull-off lies between {} and {}, and is known no better: a load between them did not converge; allow more max_iterations",

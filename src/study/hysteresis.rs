@@ -9,7 +9,7 @@ const CLOSED: f64 = 1e-9;
 /// Energy dissipated over a loop, J.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Hysteresis {
-    /// The area of the loop, with straight lines between its steps.
+    /// The area of the loop, with straight lines between its steps, less what the surfaces store more at its end than at its start.
     pub energy: f64,
     /// How far from it the area may be that the force encloses between the steps.
     pub uncertainty: f64,
@@ -35,15 +35,19 @@ impl Hysteresis {
         let [first, .., last] = *path.get(..rows.len())? else {
             return None;
         };
-        let is_open = (last - first).abs() > CLOSED * span(path);
+        let span = span(&path[..rows.len()]);
+        let is_open = (last - first).abs() > CLOSED * span || span == 0.0;
         if rows.len() < 3 || is_open || !rows.iter().all(|row| row.converged) {
             return None;
         }
-        let energy = rows
+        let area: f64 = rows
             .windows(2)
             .zip(places.windows(2))
             .map(|(row, place)| 0.5 * (row[0].force + row[1].force) * (place[1] - place[0]))
             .sum();
+        // They need not come back to their state: to another branch, a plastic one, or one that still relaxes.
+        let stored = |row: &StepRow| row.elastic_energy + row.adhesive_energy;
+        let energy = area - (stored(rows.last()?) - stored(rows.first()?));
         let uncertainty = rows
             .windows(2)
             .filter_map(|rows| {

@@ -90,7 +90,7 @@ pub struct WalkEnd {
     pub pull_off: Option<PullOff>,
     /// Energy that a closed loop dissipates, J.
     pub hysteresis_energy: Option<f64>,
-    /// How far from it the energy may be, J, for what lies between the steps; `None` where jumps are not watched.
+    /// How far from it the energy may be, J, for what lies between the steps; `None` on a path with durations.
     pub hysteresis_uncertainty: Option<f64>,
     /// Whether the observer ended it.
     pub interrupted: bool,

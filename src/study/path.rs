@@ -34,7 +34,7 @@ pub fn walk_on<O: Observer>(
 ) -> Result<WalkEnd, WalkError<O::Error>> {
     let mut walk = Walk::begin(setup, earlier);
     while walk.step(setup, make_backend, observer)? {}
-    Ok(walk.end(&setup.scene.loading.path))
+    Ok(walk.end(setup))
 }
 
 /// A path on its way: its solver as the last step has left it, and what is known of the steps so far.
@@ -93,11 +93,14 @@ impl Walk {
         &self.end
     }
 
-    /// How it ended, or stands, on a path of these values.
-    fn end(self, path: &[f64]) -> WalkEnd {
+    /// How it ended, or stands.
+    fn end(self, setup: &Setup) -> WalkEnd {
         let jumped = [&self.end.jump_in_steps[..], &self.end.jump_off_steps].concat();
-        let found = self.jumps.hysteresis(path, &self.end.rows, &jumped);
-        let uncertainty = found.filter(|_| self.jumps.watches());
+        let found = self
+            .jumps
+            .hysteresis(&setup.scene.loading.path, &self.end.rows, &jumped);
+        // What a solid or an edge loses by its rate cannot be told from an error.
+        let uncertainty = found.filter(|_| setup.scene.loading.durations.is_none());
         WalkEnd {
             hysteresis_energy: found.map(|found| found.energy),
             hysteresis_uncertainty: uncertainty.map(|found| found.uncertainty),

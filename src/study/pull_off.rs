@@ -192,6 +192,8 @@ pub(super) fn find(
         share: 0.0,
         carried: held,
     };
+    // Where there is no load; rounding may leave some, of either sign.
+    let unloaded = between.from / (between.from - between.to);
     // Separation under a falling tension is delayed: the tension before is the greatest carried.
     let mut upper = if between.to < between.from { 1.0 } else { 0.0 };
     for _ in 0..MOST_TRIALS {
@@ -201,8 +203,8 @@ pub(super) fn find(
             break;
         }
         // From compression first to no load: pull-off may be far below the prescribed tension.
-        let share = match held > 0.0 {
-            true => between.from / (between.from - between.to),
+        let share = match held > 0.0 && lower.share < unloaded {
+            true => unloaded,
             false => 0.5 * (lower.share + upper),
         };
         if share <= lower.share || share >= upper {

@@ -237,7 +237,32 @@ fn the_greatest_tension_before_a_sudden_fall_is_found() {
     assert!((found / held - 1.0).abs() < 0.012, "{found} and {held}");
 }
 
+/// Pull-off by the DMT treatment is of the law that its loads have: the sharp one, whatever taper the full field takes.
+fn the_dmt_rows_have_one_law() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = SMOOTH.replace(
+        "law = \"lennard-jones\"\nwork_of_adhesion = \"0.2 J/m^2\"\nrange = \"1 nm\"",
+        "law = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"1 nm\"",
+    );
+    assert_ne!(text, SMOOTH);
+    fs::write(folder.path().join("sharp.toml"), text).expect("written");
+    let found = |out: &str, set: &[&str]| {
+        let call = [&["compare", "sharp.toml", "--out", out][..], set].concat();
+        let output = tabor(folder.path(), &call);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let rows = rows(&folder.path().join(out).join("compare.csv"));
+        let dmt = of(&rows, "DMT");
+        ["mean_pressure", "adhesive_pressure"].map(|name| number(dmt[0], name).expect("a number"))
+    };
+    let own = found("own", &[]);
+    assert_eq!(own, found("sharp", &["--set", "adhesion.taper=0"]));
+    // Of a sharp law a whole number of points attracts, each by its peak.
+    let points = own[1] / (50e-3 / 1e-9) * 64.0 * 64.0;
+    assert!((points - points.round()).abs() < 1e-6 * points, "{points}");
+}
+
 tests![
+    the_dmt_rows_have_one_law,
     the_greatest_tension_is_found_behind_a_lesser_one_and_on_the_way_out,
     the_greatest_tension_before_a_sudden_fall_is_found,
     every_model_answers_at_every_load,

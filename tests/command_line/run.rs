@@ -622,6 +622,75 @@ fn pull_off_under_a_load() {
 }
 
 /// A stiff sphere that jumps into contact, is pressed, and jumps off; the loop closes.
+/// A rough surface, whose solid and loading are lines of their tables.
+fn rough_under(solid: &str, treatment: &str, loading: &str) -> String {
+    format!(
+        "[grid]\npoints = 64\nsize = \"10 um\"\n[solid]\ncontact_modulus = \"100 MPa\"\n{solid}\n\
+         [[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_slope = 0.1\nlongest = \"10 um\"\nrolloff = \"5 um\"\nshortest = \"1 um\"\nseed = 3\n\
+         [adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"20 nm\"\n{treatment}\n\
+         [loading]\ncontrol = \"pressure\"\n{loading}\n[output]\nimages = []\n"
+    )
+}
+
+/// A load between compression and tension is none but for its rounding, and a bracket is as wide as asked but for that of its ends.
+fn rounding_hides_no_pull_off_and_widens_no_bracket() {
+    for (name, solid, treatment, loading) in [
+        // 500 kPa less 580 kPa times 500/580 is 5.8e-11 Pa.
+        ("rounded", "", "", "path = [\"500 kPa\", \"-80 kPa\"]"),
+        // Halvings of a ramp whose bounds end 1 % apart.
+        (
+            "wide",
+            "hardness = \"5 MPa\"",
+            "",
+            "start = \"0 Pa\"\n[[loading.ramp]]\nto = \"0.4 MPa\"\nsteps = 5\n[[loading.ramp]]\nto = \"-0.1 MPa\"\nsteps = 6\n[[loading.ramp]]\nto = \"0.4 MPa\"\nsteps = 5\n[[loading.ramp]]\nto = \"-0.2 MPa\"\nsteps = 6",
+        ),
+    ] {
+        let (folder, _) = scene(&rough_under(solid, treatment, loading));
+        let (said, _) = last_words(folder.path(), name, &[]);
+        let output = tabor(folder.path(), &["run", "scene.toml", "--out", "again"]);
+        let warned = errors(&output);
+        assert!(said.contains("the pull-off force is "), "{name}: {said}");
+        assert!(!warned.contains("is known no better"), "{name}: {warned}");
+        let found = summary(&folder.path().join(name));
+        let [lower, upper] = ["pull_off_lower", "pull_off_upper"]
+            .map(|key| found[key].as_f64().unwrap_or_else(|| panic!("no {key}")));
+        assert!(
+            lower > 0.0 && upper - lower <= 0.01 * upper * (1.0 + 1e-9),
+            "{name}: {lower} {upper}"
+        );
+    }
+    // A load that the search for it meets to 1e-12 of the greatest is none either.
+    let (folder, _) = scene(&rough_under(
+        "",
+        "treatment = \"dmt\"",
+        "path = [\"0.5 MPa\", \"0.1 MPa\", \"0 Pa\"]",
+    ));
+    let (said, _) = last_words(folder.path(), "dmt", &[]);
+    assert!(said.contains("the surfaces stick at zero load"), "{said}");
+}
+
+/// What attracts without contact at the end of a path is warned of as a contact is.
+fn an_attraction_that_holds_is_warned_of() {
+    let (folder, _) = scene(
+        &LOOP
+            .replace(
+                "path = [\"-1.6 um\", \"-0.3 um\", \"0.5 um\", \"-0.5 um\", \"-1.6 um\"]",
+                "path = [\"-1.6 um\", \"-0.24 um\"]",
+            )
+            .replace(
+                "range = \"250 nm\"",
+                "range = \"250 nm\"\ntreatment = \"dmt\"",
+            ),
+    );
+    let output = tabor(folder.path(), &["run", "scene.toml"]);
+    let said = errors(&output);
+    assert_eq!(status(&output), 0, "{said}");
+    assert!(
+        said.contains("the attraction held ") && said.contains(" in step 2, the greatest tension"),
+        "{said}"
+    );
+}
+
 const LOOP: &str = r#"
 [grid]
 points = 48
@@ -949,6 +1018,8 @@ fn a_step_beyond_closure_is_called_what_it_is() {
 }
 
 tests![
+    rounding_hides_no_pull_off_and_widens_no_bracket,
+    an_attraction_that_holds_is_warned_of,
     a_step_beyond_closure_is_called_what_it_is,
     a_tabor_number_is_given_only_where_a_curvature_is_meant,
     a_spring_that_gives_nothing_is_warned_of,

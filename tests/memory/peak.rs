@@ -123,8 +123,8 @@ const WHOLE_PATHS: [(&str, usize, &str, &str, &str, bool); 8] = [
     ("periodic", 1024, "single", "", LOADS, false),
     ("periodic", 1024, "mixed", "", LOADS, false),
     ("periodic", 1024, "double", MAUGIS, GAPS, true),
-    ("periodic", 1024, "mixed", EXPONENTIAL, GAPS, false),
-    ("periodic", 1024, "single", LENNARD_JONES, GAPS, false),
+    ("periodic", 1024, "mixed", EXPONENTIAL, GAPS, true),
+    ("periodic", 1024, "single", LENNARD_JONES, GAPS, true),
     ("free", 512, "double", MAUGIS, LOADS, false),
     ("free", 512, "mixed", LENNARD_JONES, LOADS, false),
 ];

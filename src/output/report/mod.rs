@@ -276,15 +276,8 @@ impl Report<'_> {
                 found.push((name, at.len().to_string(), step_words(at)));
             }
         }
-        if let Some(summary) = self.summary
-            && let Some(energy) = summary.hysteresis_energy
-        {
-            let note = "lost over the loop".to_owned();
-            found.push((
-                "Hysteresis",
-                loss(energy, summary.hysteresis_uncertainty),
-                note,
-            ));
+        if let Some(lost) = self.summary.and_then(loss) {
+            found.push(("Hysteresis", lost, "lost over the loop".to_owned()));
         }
         if let Some(regime) = &self.setup.regime
             && let Some(tabor) = regime.tabor
