@@ -69,7 +69,12 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
     let forces = end.rows.iter().map(|row| row.force.abs());
     let greatest = forces.fold(0.0, f64::max);
-    match Tension::at_end(loading, end) {
+    let tension = Tension::at_end(loading, end);
+    match tension {
+        Tension::Passed { step, force } if tension.is_cut_off(loading, &end.rows) => Some(format!(
+            "the path turns back at its greatest tension, {} in step {step}, before the surfaces were pressed beyond it: pull-off may be greater; press further",
+            newtons(force)
+        )),
         Tension::Holds { step, force } if end.rows[step - 1].state != State::Separated => {
             let what = match end.rows[step - 1].state {
                 State::Contact => "the contact",

@@ -98,6 +98,18 @@ impl Tension {
         Tension::Holds { step, force }
     }
 
+    /// Whether the path turns back at this tension of a prescribed position, on the way in: pressed further, the surfaces may carry more.
+    pub(crate) fn is_cut_off(self, loading: &LoadingScene, rows: &[StepRow]) -> bool {
+        let Tension::Passed { step, .. } = self else {
+            return false;
+        };
+        let [before, row] = match rows.get(step.wrapping_sub(2)..step) {
+            Some([before, row]) => [before, row].map(|row| row.place(loading.control)),
+            _ => return false,
+        };
+        before.zip(row).is_some_and(|(before, row)| before < row)
+    }
+
     /// The pull-off force, if the path shows it.
     pub fn pull_off(self) -> Option<f64> {
         match self {

@@ -622,6 +622,25 @@ fn pull_off_under_a_load() {
 }
 
 /// A stiff sphere that jumps into contact, is pressed, and jumps off; the loop closes.
+/// A path that turns back while the tension still grows shows a part of the pull-off, and says so.
+fn a_path_that_turns_back_at_its_greatest_tension_says_so() {
+    let said = |path: &str| {
+        let whole = "path = [\"-1.6 um\", \"-0.3 um\", \"0.5 um\", \"-0.5 um\", \"-1.6 um\"]";
+        let (folder, _) = scene(&LOOP.replace(whole, path));
+        let output = tabor(folder.path(), &["run", "scene.toml"]);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        errors(&output)
+    };
+    let words = "the path turns back at its greatest tension, ";
+    let turned = said("path = [\"-1.6 um\", \"-0.3 um\", \"-1.6 um\"]");
+    assert!(
+        turned.contains(words) && turned.contains(" in step 2, "),
+        "{turned}"
+    );
+    let pressed = said("path = [\"-1.6 um\", \"0.5 um\", \"-0.3 um\", \"-0.5 um\", \"-1.6 um\"]");
+    assert!(!pressed.contains(words), "{pressed}");
+}
+
 /// A rough surface, whose solid and loading are lines of their tables.
 fn rough_under(solid: &str, treatment: &str, loading: &str) -> String {
     format!(
@@ -1018,6 +1037,7 @@ fn a_step_beyond_closure_is_called_what_it_is() {
 }
 
 tests![
+    a_path_that_turns_back_at_its_greatest_tension_says_so,
     rounding_hides_no_pull_off_and_widens_no_bracket,
     an_attraction_that_holds_is_warned_of,
     a_step_beyond_closure_is_called_what_it_is,
