@@ -31,7 +31,7 @@ const fn quantity(
 }
 
 /// Quantities of a whole run, in the order of `runs.csv`, SI.
-pub(super) const QUANTITIES: [Quantity; 11] = [
+pub(super) const QUANTITIES: [Quantity; 12] = [
     quantity("largest_contact_area_fraction", "%", |end| {
         end.summary.largest_contact_area_fraction
     }),
@@ -57,6 +57,10 @@ pub(super) const QUANTITIES: [Quantity; 11] = [
         Some(end.rows.iter().map(|row| row.iterations as f64).sum())
     }),
     quantity("transforms", "", |end| Some(end.summary.transforms)),
+    // Behind the others: outcomes of before have none.
+    quantity("hysteresis_uncertainty", "J", |end| {
+        end.summary.hysteresis_uncertainty
+    }),
 ];
 
 /// How a case ended.

@@ -52,7 +52,9 @@ pub(super) fn runs_table(keys: &[&str], outcomes: &[&Outcome]) -> String {
         cells.extend(outcome.values.iter().cloned());
         cells.push(outcome.status.name().to_owned());
         cells.push(outcome.rows.len().to_string());
-        cells.extend(outcome.quantities.iter().cloned());
+        let missing = std::iter::repeat(String::new());
+        let quantities = outcome.quantities.iter().cloned().chain(missing);
+        cells.extend(quantities.take(QUANTITIES.len()));
         cells.push(format!("{:?}", outcome.seconds));
         cells.push(outcome.message.replace('\n', "; "));
         text.push_str(&csv_line(cells));
