@@ -71,7 +71,7 @@ pub(super) fn loss(summary: &Summary) -> Option<String> {
         Some(uncertainty) if energy <= uncertainty => {
             jumps.then(|| format!("at most {}", format_si(energy + uncertainty, "J")))
         }
-        _ => Some(format_si(energy, "J")),
+        _ => (energy > 0.0).then(|| format_si(energy, "J")),
     }
 }
 

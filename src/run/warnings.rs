@@ -53,7 +53,15 @@ fn rounding(setup: &Setup, device: &SelectedDevice, rows: &[StepRow]) -> Option<
 
 /// A warning if the steps of a loop that jumps are too long to tell what it loses.
 fn hysteresis(end: &WalkEnd) -> Option<String> {
-    let (energy, uncertainty) = end.hysteresis_energy.zip(end.hysteresis_uncertainty)?;
+    let energy = end.hysteresis_energy?;
+    let Some(uncertainty) = end.hysteresis_uncertainty else {
+        return (energy < 0.0).then(|| {
+            format!(
+                "hysteresis_energy, {}, is less than nothing: the steps of the loop are too long; take more of them",
+                format_si(energy, "J")
+            )
+        });
+    };
     let jumps = !(end.jump_in_steps.is_empty() && end.jump_off_steps.is_empty());
     (jumps && energy <= uncertainty).then(|| {
         format!(
@@ -72,7 +80,7 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let tension = Tension::at_end(loading, end);
     match tension {
         Tension::Passed { step, force } if tension.is_cut_off(loading, &end.rows) => Some(format!(
-            "the path turns back at its greatest tension, {} in step {step}, before the surfaces were pressed beyond it: pull-off may be greater; press further",
+            "the path turns back at its greatest tension, {} in step {step}, or begins there: the surfaces were not pressed beyond it, and pull-off may be greater; press further",
             newtons(force)
         )),
         Tension::Holds { step, force } if end.rows[step - 1].state != State::Separated => {
@@ -80,6 +88,15 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
                 State::Contact => "the contact",
                 _ => "the attraction",
             };
+            if end.rows[step..]
+                .iter()
+                .any(|row| row.state == State::Separated)
+            {
+                return Some(format!(
+                    "{what} held {} in step {step}, the greatest tension of the path, and let go later at a lesser one: its pull-off is not known; pull on from step {step}, or take shorter steps",
+                    newtons(force)
+                ));
+            }
             Some(format!(
                 "{what} held {} in step {step}, the greatest tension of the path: its pull-off is beyond; extend the path until it lets go",
                 newtons(force)

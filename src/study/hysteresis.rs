@@ -28,9 +28,10 @@ impl Hysteresis {
         rows: &[StepRow],
         jumped: impl Fn(&StepRow) -> bool,
     ) -> Option<Hysteresis> {
-        let place = |row: &StepRow| row.place(prescribed.control);
-        let places: Option<Vec<f64>> = rows.iter().map(place).collect();
-        let places = places?;
+        let has_position = |row: &StepRow| row.place(prescribed.control).is_some();
+        // The work is that of the approach under a mean gap, too: it presses the layer below the gap together.
+        let places: Option<Vec<f64>> = rows.iter().map(|row| row.approach).collect();
+        let places = places.filter(|_| rows.iter().all(has_position))?;
         // The values of the path: through a spring the surfaces themselves return but to the tolerance.
         let [first, .., last] = *path.get(..rows.len())? else {
             return None;

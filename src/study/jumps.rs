@@ -329,6 +329,8 @@ pub(super) fn confirm(
             return Ok(None);
         }
         if !tried.row.converged {
+            // Nothing more is known: where the surfaces came together or parted, they may well have jumped.
+            keeping += usize::from(start.1.state != end.1.state);
             break;
         }
         let pieces = Piece::between(prescribed, &start.1, &tried.row)
@@ -337,13 +339,25 @@ pub(super) fn confirm(
             // Separated between the two places.
             return Ok(Some(true));
         };
-        let is_first = first.size() > second.size();
+        // The half in which separated surfaces meet, or part; compression alone may weigh more than that jump.
+        let parts = |a: &StepRow, b: &StepRow| {
+            (a.state == State::Separated) != (b.state == State::Separated)
+        };
+        let parting = [parts(&start.1, &tried.row), parts(&tried.row, &end.1)];
+        let is_first = match parting {
+            [true, false] => true,
+            [false, true] => false,
+            _ => first.size() > second.size(),
+        };
         let half = if is_first { first } else { second };
         if half.size() <= least {
             return Ok(Some(false));
         }
         // Of a jump the force keeps its change, whatever the losses of the halves are.
-        let shrinks = half.size() < SHRINKS * whole.size() && half.doubt < SHRINKS * whole.doubt;
+        // Nor does what compression leaves behind say that none is there.
+        let shrinks = parting[0] == parting[1]
+            && half.size() < SHRINKS * whole.size()
+            && half.doubt < SHRINKS * whole.doubt;
         shrinking = match shrinks {
             true => shrinking + 1,
             false => 0,

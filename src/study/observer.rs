@@ -90,7 +90,8 @@ pub struct WalkEnd {
     pub pull_off: Option<PullOff>,
     /// Energy that a closed loop dissipates, J.
     pub hysteresis_energy: Option<f64>,
-    /// How far from it the energy may be, J, for what lies between the steps; `None` on a path with durations.
+    /// How far from it the energy may be, J, for what lies between the steps; `None` where losses depend on
+    /// rates.
     pub hysteresis_uncertainty: Option<f64>,
     /// Whether the observer ended it.
     pub interrupted: bool,

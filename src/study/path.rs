@@ -100,7 +100,9 @@ impl Walk {
             .jumps
             .hysteresis(&setup.scene.loading.path, &self.end.rows, &jumped);
         // What a solid or an edge loses by its rate cannot be told from an error.
-        let uncertainty = found.filter(|_| setup.scene.loading.durations.is_none());
+        let has_rates = setup.effects.depend_on_duration()
+            || setup.effects.hide_jumps() && !setup.sums_attraction();
+        let uncertainty = found.filter(|_| !has_rates);
         WalkEnd {
             hysteresis_energy: found.map(|found| found.energy),
             hysteresis_uncertainty: uncertainty.map(|found| found.uncertainty),

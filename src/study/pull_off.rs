@@ -69,7 +69,8 @@ impl Tension {
     /// A prescribed position has passed pull-off where the surfaces go on to part after the greatest tension. The tension on
     /// the way to a contact is none of its, and one that a path ends at or turns back from has only held.
     pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
-        let rows = &end.rows;
+        let solved = end.rows.iter().take_while(|row| row.converged).count();
+        let rows = &end.rows[..solved];
         let ways = (!is_load(loading)).then(|| ways(rows, loading.control));
         let greatest = |way: Option<Way>| {
             let under_tension = rows.iter().enumerate().filter(|(_, row)| row.force < 0.0);
@@ -98,16 +99,16 @@ impl Tension {
         Tension::Holds { step, force }
     }
 
-    /// Whether the path turns back at this tension of a prescribed position, on the way in: pressed further, the surfaces may carry more.
+    /// Whether nothing before this tension of a prescribed position was pressed further: the surfaces may carry more further in.
     pub(crate) fn is_cut_off(self, loading: &LoadingScene, rows: &[StepRow]) -> bool {
         let Tension::Passed { step, .. } = self else {
             return false;
         };
-        let [before, row] = match rows.get(step.wrapping_sub(2)..step) {
-            Some([before, row]) => [before, row].map(|row| row.place(loading.control)),
-            _ => return false,
-        };
-        before.zip(row).is_some_and(|(before, row)| before < row)
+        let places = rows.iter().map(|row| row.place(loading.control));
+        let places: Vec<f64> = places.take(step).flatten().collect();
+        let still = STILL * span(&places);
+        let here = places.last().copied().unwrap_or_default();
+        places.iter().all(|place| *place <= here + still)
     }
 
     /// The pull-off force, if the path shows it.
@@ -165,7 +166,8 @@ fn ways(rows: &[StepRow], control: Control) -> Vec<Way> {
             if rows[index].state == State::Separated || next == Some(true) {
                 return Way::Out;
             }
-            match (0..index).rev().find_map(|from| is_apart(index, from)) {
+            let before = (0..index).rev().find_map(|from| is_apart(index, from));
+            match before.or(next.map(|next| !next)) {
                 Some(true) => Way::In,
                 Some(false) | None => Way::Held,
             }

@@ -314,6 +314,12 @@ fn long_steps_find_the_jumps_and_say_how_well_the_loss_is_known() {
         );
         (loss, uncertainty)
     };
+    // A step that presses far beyond its jump.
+    loop_of(
+        "maugis-dugdale",
+        ["60 um", "100 um", "1 MPa", "250 nm", "-1.6 um", "2.5 um"],
+        1,
+    );
     for (law, sphere) in [
         (
             "lennard-jones",
@@ -363,6 +369,37 @@ fn what_is_stored_at_the_end_of_a_loop_is_not_lost() {
     let (lost, uncertainty, _) = loop_of("", &path);
     assert!(lost.expect("a loop").abs() <= uncertainty.expect("without rates"));
     assert_eq!(loop_of("", &[inwards(3); 4]).0, None);
+}
+
+/// Under a mean gap the work is that of the approach, which presses a layer together: a loop that begins apart and ends stuck loses
+/// what its steps do, and not what the gap alone would say.
+fn a_loop_of_a_layer_under_a_mean_gap_loses_what_its_steps_do() {
+    let path = loop_path(4.0 * RMS_HEIGHT, 2.0 * RMS_HEIGHT, 12);
+    let loading = format!("control = \"mean-gap\"\npath = {path:?}");
+    let text = rough(64, &laws(4e-3, 6e-3)[1].1, &loading);
+    let solid = "contact_modulus = 1.0\npoisson_ratio = 0.3\nthickness = 1.0";
+    let solved = solve(&text.replace("contact_modulus = 1.0", solid));
+    let rows: Vec<&StepRow> = solved.rows().collect();
+    let steps = rows
+        .windows(2)
+        .filter_map(|pair| dissipation(pair[0], pair[1]));
+    let lost: f64 = steps.sum();
+    let found = solved.end.hysteresis_energy.expect("a closed path");
+    let by_gap = |pair: &[&StepRow]| {
+        let gaps = pair[0].mean_gap.zip(pair[1].mean_gap).expect("gaps");
+        0.5 * (pair[0].force + pair[1].force) * (gaps.0 - gaps.1)
+            + dissipation(pair[0], pair[1]).expect("places")
+            - 0.5
+                * (pair[0].force + pair[1].force)
+                * (pair[1].approach.expect("a place") - pair[0].approach.expect("a place"))
+    };
+    let narrow: f64 = rows.windows(2).map(by_gap).sum();
+    println!("lost {lost:.4e}, found {found:.4e}, by the gap alone {narrow:.4e}");
+    assert!(
+        lost > 0.0 && (found / lost - 1.0).abs() < 1e-6,
+        "{lost:e} {found:e}"
+    );
+    assert!((narrow / lost - 1.0).abs() > 0.1, "{narrow:e}");
 }
 
 /// A loop through a spring is closed by its far end, which the path prescribes: the surfaces return to the tolerance alone.
@@ -419,5 +456,6 @@ tests![
     no_adhesion_no_loop,
     long_steps_find_the_jumps_and_say_how_well_the_loss_is_known,
     what_is_stored_at_the_end_of_a_loop_is_not_lost,
+    a_loop_of_a_layer_under_a_mean_gap_loses_what_its_steps_do,
     a_loop_through_a_spring_is_closed_by_its_far_end,
 ];

@@ -193,6 +193,12 @@ fn pull_off_is_on_the_way_out() {
     // Whatever follows once they have parted.
     let again = says(&[&out[..], &[-0.5, 0.5]].concat());
     assert_eq!(again, passed);
+    // Or goes before: a tension from which the path first presses on is on the way in.
+    let pressed = says(&[&[-0.5], &out[..]].concat());
+    assert!(
+        matches!(pressed, Tension::Passed { step: later, .. } if later == step + 1),
+        "{pressed:?}"
+    );
     // The way in has tension, too, and the surfaces stay together.
     for path in [
         &[-0.3, 0.5, 0.4][..],

@@ -17,7 +17,6 @@ use super::sentence::{AtZeroLoad, loss, per_cent, sentence, step_words};
 use super::summary::Summary;
 use super::visible::visible;
 use crate::effect::Effect;
-use crate::scene::Control;
 use crate::study::{Checkpoint, Planned, Setup, StepRow};
 use crate::units::format_si;
 
@@ -189,7 +188,7 @@ impl Report<'_> {
             found.push(Quantity {
                 name: "work done".to_owned(),
                 unit: "J",
-                values: work_done(self.setup.scene.loading.control, self.rows),
+                values: work_done(self.rows),
                 by_distance: true,
             });
         }
@@ -444,16 +443,15 @@ impl Report<'_> {
 }
 
 /// Work done on the surfaces up to each step of a path of approach or mean gap, J.
-fn work_done(control: Control, rows: &[StepRow]) -> Vec<Option<f64>> {
-    let place = |row: &StepRow| match control {
-        Control::MeanGap => row.mean_gap.map(|gap| -gap),
-        _ => row.approach,
-    };
+fn work_done(rows: &[StepRow]) -> Vec<Option<f64>> {
     let mut work = Some(0.0);
     let mut before: Option<&StepRow> = None;
     let after = |row| {
         if let Some(before) = before.replace(row) {
-            let moved = place(row).zip(place(before)).map(|(to, from)| to - from);
+            let moved = row
+                .approach
+                .zip(before.approach)
+                .map(|(to, from)| to - from);
             work = work
                 .zip(moved)
                 .map(|(work, moved)| work + 0.5 * (before.force + row.force) * moved);

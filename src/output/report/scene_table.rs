@@ -121,10 +121,12 @@ fn words(key: &str, value: &Value, path_unit: &str) -> String {
 fn unit<'u>(key: &str, path_unit: &'u str) -> Option<&'u str> {
     Some(match key {
         "size" | "radius" | "centre" | "amplitude" | "wavelength" | "rms_height" | "longest"
-        | "rolloff" | "shortest" | "range" | "taper" | "thickness" | "period" => "m",
+        | "rolloff" | "shortest" | "range" | "taper" | "thickness" | "period" | "black"
+        | "white" => "m",
         "contact_modulus" | "peak_tension" | "hardness" | "modulus" => "Pa",
         "work_of_adhesion" => "J/m^2",
         "surface_tension" | "spring" => "N/m",
+        "molar_volume" => "m^3/mol",
         "time" | "hold" | "duration" | "durations" => "s",
         "temperature" => "K",
         "reference_speed" => "m/s",
