@@ -223,7 +223,7 @@ pub(super) fn dmt(
             treatment: Treatment::Dmt,
             ..adhesion
         });
-    // The law of the treatment, whose automatic taper is none: that of the loads below.
+    // The law of the treatment, without the automatic taper, as for the loads below.
     let treated = Scene {
         adhesion: adhesion.clone(),
         ..comparison.setup.scene.clone()

@@ -4,7 +4,7 @@ use super::summary::Summary;
 use crate::study::{State, StepRow};
 use crate::units::format_si;
 
-/// Loads below this share of the greatest are none: a treatment that searches for its load meets it to as much.
+/// Loads below this share of the greatest count as zero: a treatment that searches for its load meets it to about this.
 const UNLOADED: f64 = 1e-6;
 /// Most steps that are named.
 const NAMED: usize = 6;
@@ -63,7 +63,7 @@ pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
     }
 }
 
-/// What a loop loses, J: at most so much where that is less than its uncertainty, and nothing to speak of where no step of it jumps.
+/// What a loop loses, J: an upper bound where the loss is less than its uncertainty; `None` where no step jumps and the loss is below that.
 pub(super) fn loss(summary: &Summary) -> Option<String> {
     let energy = summary.hysteresis_energy?;
     let jumps = !(summary.jump_in_steps.is_empty() && summary.jump_off_steps.is_empty());

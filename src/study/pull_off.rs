@@ -66,8 +66,8 @@ pub enum Tension {
 impl Tension {
     /// Of the end of a path.
     ///
-    /// A prescribed position has passed pull-off where the surfaces go on to part after the greatest tension. The tension on
-    /// the way to a contact is none of its, and one that a path ends at or turns back from has only held.
+    /// Under a prescribed position pull-off is the greatest tension from which the surfaces part further. The tension on the way
+    /// in does not count, and one at which the path ends or turns back has only held.
     pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
         let solved = end.rows.iter().take_while(|row| row.converged).count();
         let rows = &end.rows[..solved];

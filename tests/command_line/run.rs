@@ -651,7 +651,7 @@ fn rough_under(solid: &str, treatment: &str, loading: &str) -> String {
     )
 }
 
-/// A load between compression and tension is none but for its rounding, and a bracket is as wide as asked but for that of its ends.
+/// Rounding of the zero load between compression and tension loses no pull-off, and rounding of the ends of a bracket is no cause for a warning.
 fn rounding_hides_no_pull_off_and_widens_no_bracket() {
     for (name, solid, treatment, loading) in [
         // 500 kPa less 580 kPa times 500/580 is 5.8e-11 Pa.
