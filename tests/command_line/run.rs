@@ -678,7 +678,7 @@ fn rounding_hides_no_pull_off_and_widens_no_bracket() {
             "{name}: {lower} {upper}"
         );
     }
-    // A load that the search for it meets to 1e-12 of the greatest is none either.
+    // A load that the search meets to 1e-12 of the greatest counts as zero too.
     let (folder, _) = scene(&rough_under(
         "",
         "treatment = \"dmt\"",

@@ -95,11 +95,7 @@ fn a_run_takes_what_was_counted() {
         let peak = peak_of(folder.path(), &text, &name, 3);
         let plan = plan(&text);
         let counted = plan.memory(plan.place()).expect("a count").machine as f64;
-        let share = peak / counted;
-        println!(
-            "{share:.3} of {:.0} MiB: {name}",
-            counted / f64::from(1 << 20)
-        );
+        let share = share_of(peak, counted, &name);
         assert!((0.5..1.05).contains(&share), "{share} of the count: {name}");
     }
 }
@@ -114,6 +110,17 @@ fn peak_of(folder: &Path, text: &str, name: &str, status: i32) -> f64 {
     assert_eq!(output.status.code(), Some(status), "{name}: {message}");
     let summary = summary(&folder.join("scene"));
     summary["peak_memory_bytes"].as_f64().expect("a peak")
+}
+
+/// The peak of a run over what is stated, both in bytes; it is printed with the name of the run.
+#[cfg(target_os = "linux")]
+fn share_of(peak: f64, stated: f64, name: &str) -> f64 {
+    let share = peak / stated;
+    println!(
+        "{share:.3} of {:.0} MiB: {name}",
+        stated / f64::from(1 << 20)
+    );
+    share
 }
 
 /// Boundary, points, precision, law, loading, and whether the path has a step that is searched for a jump.
@@ -170,11 +177,7 @@ fn a_whole_path_takes_what_is_stated_to_a_tenth() {
         } else {
             memory.without_search
         };
-        let share = peak / stated as f64;
-        println!(
-            "{share:.3} of {:.0} MiB: {name}",
-            stated as f64 / f64::from(1 << 20)
-        );
+        let share = share_of(peak, stated as f64, &name);
         assert!(
             (share - 1.0).abs() <= 0.1,
             "{share} of what is stated: {name}"
@@ -204,11 +207,7 @@ fn a_step_that_is_solved_on_takes_what_is_stated_to_a_tenth() {
     );
     let plan = plan(&text);
     let stated = plan.memory(plan.place()).expect("a count").machine as f64;
-    let share = peak / stated;
-    println!(
-        "{share:.3} of {:.0} MiB: {name}",
-        stated / f64::from(1 << 20)
-    );
+    let share = share_of(peak, stated, name);
     assert!((share - 1.0).abs() <= 0.1, "{share} of what is stated");
 }
 
@@ -237,11 +236,7 @@ fn a_viscoelastic_path_takes_no_more_than_is_stated() {
         let peak = peak_of(folder.path(), &text, &name, 0);
         let plan = plan(&text);
         let stated = plan.memory(plan.place()).expect("a count").machine as f64;
-        let share = peak / stated;
-        println!(
-            "{share:.3} of {:.0} MiB: {name}",
-            stated / f64::from(1 << 20)
-        );
+        let share = share_of(peak, stated, &name);
         assert!((0.5..1.05).contains(&share), "{share} of the count: {name}");
     }
 }

@@ -286,8 +286,8 @@ fn rough_loops() {
     }
 }
 
-/// Steps that are long against its jumps find them nevertheless, and what a loop loses is known to what it says: a force that is level
-/// and falls in one step may lose nothing by a straight line.
+/// Jumps are found in steps that are long against them, and the stated uncertainty of the energy of a loop holds: a force that stays
+/// level and then falls within one step may enclose no area with the straight line.
 fn long_steps_find_the_jumps_and_say_how_well_the_loss_is_known() {
     // Spheres on whose 128 points the law is resolved.
     let loop_of = |law: &str,
@@ -341,8 +341,8 @@ fn long_steps_find_the_jumps_and_say_how_well_the_loss_is_known() {
     }
 }
 
-/// A loop that comes back to its place but not to its state loses what it has taken less what is stored more: of a plastic one
-/// that is the work of the flow. A path that stays is no loop, and one of an elastic contact loses nothing that it would show.
+/// A loop that returns to its place but not to its state loses the work done less the growth of the stored energy: for a plastic solid
+/// that is the work of plastic flow. A path that does not move is no loop, and an elastic contact loses less than the uncertainty.
 fn what_is_stored_at_the_end_of_a_loop_is_not_lost() {
     let loop_of = |solid: &str, path: &[f64]| {
         let text = rough(64, "", &format!("control = \"approach\"\npath = {path:?}"));

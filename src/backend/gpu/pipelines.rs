@@ -37,7 +37,7 @@ pub struct Pipelines {
 }
 
 impl Pipelines {
-    /// The compiled shader of a source. Where there is none yet, another thread compiles it.
+    /// The compiled shader of a source. If it is not ready, another thread compiles it.
     pub fn of(
         &self,
         source: String,
