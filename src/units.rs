@@ -285,6 +285,8 @@ const PLAIN: &[(&str, Dimension, i32, f64)] = &[
 /// Prefixes with their powers of ten, the one that is written first; both code points of the Greek letter
 /// are in use.
 const PREFIXES: &[(char, i32)] = &[
+    ('z', -21),
+    ('a', -18),
     ('f', -15),
     ('p', -12),
     ('n', -9),
@@ -501,16 +503,22 @@ pub fn format_si(value: f64, unit: &str) -> String {
     let (mantissa, exponent) = rounded.split_once('e').unwrap_or((&rounded, "0"));
     let exponent: i32 = exponent.parse().unwrap_or(0);
     let group = exponent.div_euclid(3) * 3;
-    let prefix = PREFIXES.iter().find(|(_, power)| *power == group);
-    let within = prefix.is_some() || group == 0;
-    if within && takes_prefix(unit) {
-        let prefix = prefix.map_or_else(String::new, |(letter, _)| letter.to_string());
+    if let Some(prefix) = prefix_of(group)
+        && takes_prefix(unit)
+    {
         with_unit(plain_number(mantissa, exponent - group), &prefix)
-    } else if within && (-3..4).contains(&exponent) {
+    } else if (-3..4).contains(&exponent) {
         with_unit(plain_number(mantissa, exponent), "")
     } else {
         with_unit(format!("{}e{exponent}", trim_zeros(mantissa)), "")
     }
+}
+
+/// The prefix of a power of ten, if it has one; none stands for 0.
+pub(crate) fn prefix_of(power: i32) -> Option<String> {
+    let known = PREFIXES.iter().find(|(_, known)| *known == power);
+    let letter = known.map(|(letter, _)| letter.to_string());
+    letter.or_else(|| (power == 0).then(String::new))
 }
 
 /// Whether a prefix may stand before a unit: not before a power, where it would be squared too.

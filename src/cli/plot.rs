@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use csv::StringRecord;
 
-use super::{Failure, say};
+use super::{Failure, say, warn};
 use crate::fit::ColumnChoice;
 use crate::output::csv_line::csv_line;
 use crate::output::curve::unit_of;
@@ -56,6 +56,7 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         }
     }
     expect_points(&pairs, &runs)?;
+    warn_of_empty(&pairs, &runs);
     let figure = Figure {
         names: names(&arguments.runs),
         panels: pairs.iter().map(|pair| panel(pair, &runs)).collect(),
@@ -96,6 +97,20 @@ fn expect_points(pairs: &[[String; 2]], runs: &[Table]) -> Result<(), Failure> {
         run.path.display(),
         with_numbers.join(", ")
     )))
+}
+
+/// Says which runs are in the legend and without a curve.
+fn warn_of_empty(pairs: &[[String; 2]], runs: &[Table]) {
+    for run in runs {
+        for pair @ [x, y] in pairs {
+            if run.points(pair).iter().all(Option::is_none) {
+                warn(&format!(
+                    "{}: no row has a number both in {x} and in {y}, so this run has no curve of {y} against {x}",
+                    run.path.display()
+                ));
+            }
+        }
+    }
 }
 
 /// A column as its head names it.

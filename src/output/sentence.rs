@@ -29,6 +29,19 @@ pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
     } else {
         "The surfaces do not touch".to_owned()
     }];
+    let solved = rows.iter().filter(|row| row.has_solution());
+    let strongest = solved.min_by(|a, b| a.force.total_cmp(&b.force));
+    if let Some(row) = strongest
+        && largest.contact_area_fraction == 0.0
+        && summary.pull_off_force.is_none()
+        && row.force < 0.0
+    {
+        clauses.push(format!(
+            "the greatest tension between them is {} (step {})",
+            format_si(-row.force, "N"),
+            row.step
+        ));
+    }
     let stuck = AtZeroLoad::from_rows(rows);
     if let (Some(force), Some(step)) = (summary.pull_off_force, summary.pull_off_step) {
         clauses.push(format!(

@@ -1,20 +1,6 @@
 //! Prefixed units of axes, and the digits of their ticks.
 
-use crate::units::takes_prefix;
-
-/// Prefixes with their powers of ten, rising.
-const PREFIXES: [(i32, &str); 10] = [
-    (-15, "f"),
-    (-12, "p"),
-    (-9, "n"),
-    (-6, "µ"),
-    (-3, "m"),
-    (0, ""),
-    (3, "k"),
-    (6, "M"),
-    (9, "G"),
-    (12, "T"),
-];
+use crate::units::{prefix_of, takes_prefix};
 
 /// A prefixed unit, such as "µm", with its factor 1e-6.
 #[derive(Clone, Debug, PartialEq)]
@@ -25,26 +11,23 @@ pub(crate) struct ScaledUnit {
     pub name: String,
 }
 
-/// The prefixed `unit` in which `value` lies between 1 and 1000, within the range of prefixes. A unit that takes no
-/// prefix, such as m^3/m, has a power of ten before it.
+/// The prefixed `unit` in which `value` lies between 1 and 1000. A unit that takes no prefix, such as m^3/m, has a power
+/// of ten before it, and so has a power without a prefix.
 pub(crate) fn scaled_unit(value: f64, unit: &str) -> ScaledUnit {
     let digits = if value == 0.0 || !value.is_finite() {
         0
     } else {
         decimal_exponent(value, 4)
     };
-    let (power, prefix) = PREFIXES
-        .iter()
-        .rev()
-        .find(|(power, _)| *power <= digits)
-        .unwrap_or(&PREFIXES[0]);
-    let name = if *power == 0 || unit.is_empty() || takes_prefix(unit) {
-        format!("{prefix}{unit}")
-    } else {
-        format!("1e{power} {unit}")
+    let power = digits.div_euclid(3) * 3;
+    let prefix = prefix_of(power).filter(|_| unit.is_empty() || takes_prefix(unit));
+    let name = match prefix {
+        Some(prefix) => format!("{prefix}{unit}"),
+        None if power == 0 => unit.to_owned(),
+        None => format!("1e{power} {unit}").trim_end().to_owned(),
     };
     ScaledUnit {
-        factor: 10f64.powi(*power),
+        factor: 10f64.powi(power),
         name,
     }
 }
@@ -80,7 +63,9 @@ mod tests {
             (10e6, "MPa", 1e6),
             (-999.99996e-9, "µm", 1e-6),
             (0.0, "Pa", 1.0),
-            (2.5e-17, "fm", 1e-15),
+            (2.5e-17, "am", 1e-18),
+            (4.1e-26, "1e-27 m", 1e-27),
+            (4.1e17, "1e15 Pa", 1e15),
             (1e-3, "mm", 1e-3),
             // A prefix would be cubed.
             (3e-15, "1e-15 m^3/(s Pa)", 1e-15),

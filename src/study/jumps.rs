@@ -299,6 +299,25 @@ impl Piece {
     }
 }
 
+/// A stretch of a step.
+struct Stretch {
+    /// Where it begins, with its row.
+    start: (Place, StepRow),
+    /// At which share of the step it ends, with its row.
+    end: (f64, StepRow),
+    whole: Piece,
+}
+
+/// Which half of a stretch a search follows.
+#[derive(Clone, Copy, PartialEq)]
+enum Followed {
+    /// The one in which separated surfaces meet or part, since compression alone may weigh more than that jump. Where
+    /// the other weighs more, it is searched first: attraction may set in smoothly before the surfaces jump.
+    Parting,
+    /// The one that weighs more.
+    Heavier,
+}
+
 /// Whether a step between two rows jumped, found by halving it from the state before it. Losses below
 /// `least` (J) do not count. `None` if the watch ended it.
 pub(super) fn confirm(
@@ -309,19 +328,36 @@ pub(super) fn confirm(
     least: f64,
 ) -> Result<Option<bool>, BackendError> {
     let prescribed = Prescribed::for_setup(between.means.setup);
-    let Some(mut whole) = Piece::between(prescribed, before, row) else {
+    let Some(whole) = Piece::between(prescribed, before, row) else {
         return Ok(Some(true));
     };
-    let mut start = (
-        Place {
-            share: 0.0,
-            carried: state,
-        },
-        before.clone(),
-    );
-    let mut end = (1.0, row.clone());
-    let (mut keeping, mut shrinking) = (0, 0);
     between.tell(Search::Jump);
+    let start = Place {
+        share: 0.0,
+        carried: state,
+    };
+    let stretch = Stretch {
+        start: (start, before.clone()),
+        end: (1.0, row.clone()),
+        whole,
+    };
+    follow(between, stretch, least, Followed::Parting)
+}
+
+/// The search in a stretch.
+fn follow(
+    between: &mut Between,
+    stretch: Stretch,
+    least: f64,
+    followed: Followed,
+) -> Result<Option<bool>, BackendError> {
+    let prescribed = Prescribed::for_setup(between.means.setup);
+    let Stretch {
+        mut start,
+        mut end,
+        mut whole,
+    } = stretch;
+    let (mut keeping, mut shrinking) = (0, 0);
     for _ in 0..MOST_HALVINGS {
         let share = 0.5 * (start.0.share + end.0);
         let tried = between.solve(&start.0, share)?;
@@ -339,9 +375,9 @@ pub(super) fn confirm(
             // Separated between the two places.
             return Ok(Some(true));
         };
-        // The half in which separated surfaces meet, or part; compression alone may weigh more than that jump.
         let parts = |a: &StepRow, b: &StepRow| {
-            (a.state == State::Separated) != (b.state == State::Separated)
+            followed == Followed::Parting
+                && (a.state == State::Separated) != (b.state == State::Separated)
         };
         let parting = [parts(&start.1, &tried.row), parts(&tried.row, &end.1)];
         let is_first = match parting {
@@ -349,7 +385,36 @@ pub(super) fn confirm(
             [false, true] => false,
             _ => first.size() > second.size(),
         };
-        let half = if is_first { first } else { second };
+        let (half, other) = match is_first {
+            true => (first, second),
+            false => (second, first),
+        };
+        let bends = second.bends(first.slope_after());
+        let middle = Place {
+            share,
+            carried: tried.carried,
+        };
+        let beside = if is_first {
+            let ended = std::mem::replace(&mut end, (share, tried.row.clone()));
+            Stretch {
+                start: (middle, tried.row),
+                end: ended,
+                whole: other,
+            }
+        } else {
+            let began = std::mem::replace(&mut start, (middle, tried.row.clone()));
+            Stretch {
+                start: began,
+                end: (share, tried.row),
+                whole: other,
+            }
+        };
+        if bends && other.size() > half.size().max(least) {
+            let found = follow(between, beside, least, Followed::Heavier)?;
+            if found != Some(false) {
+                return Ok(found);
+            }
+        }
         if half.size() <= least {
             return Ok(Some(false));
         }
@@ -362,8 +427,7 @@ pub(super) fn confirm(
             true => shrinking + 1,
             false => 0,
         };
-        let is_smooth = shrinking > 0 && !second.bends(first.slope_after());
-        if is_smooth || shrinking == SHRINKING {
+        if shrinking > 0 && !bends || shrinking == SHRINKING {
             return Ok(Some(false));
         }
         keeping = match half.lost > least.max(half.doubt) && half.lost > KEEPS * whole.lost {
@@ -375,15 +439,6 @@ pub(super) fn confirm(
             return Ok(Some(true));
         }
         whole = half;
-        if is_first {
-            end = (share, tried.row);
-        } else {
-            let place = Place {
-                share,
-                carried: tried.carried,
-            };
-            start = (place, tried.row);
-        }
     }
     Ok(Some(keeping > 0))
 }

@@ -195,16 +195,27 @@ impl Report<'_> {
         found
     }
 
-    /// Results that effects add: those that grow along the path at its end, the others at the largest contact.
+    /// Results that effects add: those that grow along the path at its end, the others at the largest contact, or where
+    /// they are greatest on a path without contact.
     fn results_of_effects(&self) -> Vec<(String, String, String)> {
+        let solved = || self.rows.iter().filter(|row| row.has_solution());
         let area = |row: &&StepRow| row.contact_area_fraction;
-        let solved = self.rows.iter().filter(|row| row.has_solution());
-        let largest = solved.max_by(|a, b| area(a).total_cmp(&area(b)));
+        let largest = solved().max_by(|a, b| area(a).total_cmp(&area(b)));
+        let touches = largest.is_some_and(|row| row.contact_area_fraction > 0.0);
         let at_zero = AtZeroLoad::from_rows(self.rows);
         let mut found = Vec::new();
         for column in self.setup.columns() {
             let grows = column.is_dissipated_energy;
-            let row = if grows { self.rows.last() } else { largest };
+            let row = match (grows, touches) {
+                (true, _) => self.rows.last(),
+                (false, true) => largest,
+                (false, false) => solved()
+                    .filter_map(|row| Some((row, column.value(row)?.abs())))
+                    // The first of equal ones.
+                    .rev()
+                    .max_by(|a, b| a.1.total_cmp(&b.1))
+                    .map(|(row, _)| row),
+            };
             let Some((row, value)) = row.and_then(|row| Some((row, column.value(row)?))) else {
                 continue;
             };
@@ -212,16 +223,14 @@ impl Report<'_> {
             let at_zero = at_zero.filter(|_| column.name() != ATTRACTION);
             let left = at_zero
                 .map(|place| place.value(self.rows, |row| column.value(row).unwrap_or(f64::NAN)));
+            let place = match touches {
+                true => format!("at the largest contact, step {}", row.step),
+                false => format!("the greatest of the path, step {}", row.step),
+            };
             let note = match left.filter(|left| left.is_finite()) {
                 _ if grows => format!("lost up to step {}", row.step),
-                Some(left) => {
-                    let left = format_si(left, column.unit);
-                    format!(
-                        "at the largest contact, step {}; {left} at zero load",
-                        row.step
-                    )
-                }
-                None => format!("at the largest contact, step {}", row.step),
+                Some(left) => format!("{place}; {} at zero load", format_si(left, column.unit)),
+                None => place,
             };
             let mut name = column.name().replace('_', " ");
             name[..1].make_ascii_uppercase();
@@ -236,7 +245,10 @@ impl Report<'_> {
         let area = |row: &&StepRow| row.contact_area_fraction;
         let largest = self.rows.iter().max_by(|a, b| area(a).total_cmp(&area(b)));
         if let Some(row) = largest {
-            let note = format!("of the nominal area, step {}", row.step);
+            let note = match row.contact_area_fraction > 0.0 {
+                true => format!("of the nominal area, step {}", row.step),
+                false => "the surfaces do not touch".to_owned(),
+            };
             found.push(("Largest contact", per_cent(row.contact_area_fraction), note));
         }
         let tension = self
