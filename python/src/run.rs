@@ -89,19 +89,7 @@ pub fn run(
     let end = end.map_err(|error| errors::of_run(py, teller, &error))?;
     let trouble = match end.status {
         RunStatus::Finished => None,
-        RunStatus::NotConverged {
-            step,
-            residual,
-            iterations,
-            tolerance,
-            ..
-        } => Some(format!(
-            "step {step} did not converge: residual {residual:.1e} after {iterations} iterations, {tolerance:.1e} asked"
-        )),
-        RunStatus::Interrupted { finished, steps } => {
-            Some(format!("interrupted after {finished} of {steps} steps"))
-        }
-        _ => Some("the run did not finish".to_owned()),
+        early => Some(early.to_string()),
     };
     Ok((trouble, heard.try_iter().collect()))
 }

@@ -46,6 +46,7 @@ use crate::fit::FitError;
 use crate::output::{OutputError, expect_apart, visible, visible_line};
 use crate::run::{MemoryError, RunError};
 use crate::scene::{BackendName, Precision, Scene, SceneErrors};
+use crate::study::count_of_steps;
 use crate::surface::SurfaceError;
 use crate::sweep::SweepError;
 use crate::theory::TheoryError;
@@ -302,7 +303,7 @@ enum Failure {
         tolerance: f64,
         remedy: &'static str,
     },
-    #[error("interrupted after {finished} of {steps} steps")]
+    #[error("interrupted after {}", count_of_steps(*finished, *steps))]
     Interrupted { finished: usize, steps: usize },
     #[error(
         "interrupted after {rows} settings, which are kept in {}", folder.display()

@@ -33,6 +33,7 @@ fn run_launched(arguments: &RunArguments, launched: &Launched) -> Result<(), Fai
         Some(ranks) => agree(&**ranks, arguments.read())?,
         None => arguments.read()?,
     };
+    let max_iterations = scene.solver.max_iterations;
     let device = Device::from(scene.solver.backend);
     let mut options = RunOptions::new()
         .resume(arguments.resume)
@@ -75,7 +76,7 @@ fn run_launched(arguments: &RunArguments, launched: &Launched) -> Result<(), Fai
             folder.join("report.html").display()
         ));
     }
-    judge(&end)
+    judge(&end, max_iterations)
 }
 
 /// Shows a run on the terminal, and ends it where the user wants.
@@ -140,7 +141,7 @@ impl RunObserver for Terminal {
 }
 
 /// The end of a run as its exit status.
-fn judge(end: &RunEnd) -> Result<(), Failure> {
+fn judge(end: &RunEnd, max_iterations: usize) -> Result<(), Failure> {
     match end.status {
         RunStatus::Finished => Ok(()),
         RunStatus::Interrupted { finished, steps } => Err(Failure::Interrupted { finished, steps }),
@@ -156,6 +157,9 @@ fn judge(end: &RunEnd) -> Result<(), Failure> {
             iterations,
             tolerance,
             remedy: match unreachable {
+                None if iterations < max_iterations => {
+                    "the iteration stalls there: name smaller steps, or ask for precision = \"double\" or a larger tolerance"
+                }
                 None => "allow more max_iterations, or take smaller steps",
                 Some(Unreachable::BeyondClosure) => {
                     "the surfaces cannot be closed further than full contact: end the path earlier"

@@ -16,6 +16,10 @@ use crate::study::{
 /// The retraction goes on while the tension is above this share of the greatest one.
 const OVER: f64 = 0.3;
 
+/// Mean gap at which a closed contact begins its retraction, as a share of the whole way. Its tension is greatest just as it begins
+/// to open: at a thousandth of the way a soft solid has lost a third of it.
+const CLOSED: f64 = 1e-9;
+
 /// Observes the state of each step and may end the path.
 struct Watch<F: FnMut(State, &Evaluation, bool) -> Result<bool, OutputError>>(F);
 
@@ -166,7 +170,7 @@ fn pull_off_by_retraction(
     // Beyond the highest summit by a few ranges no attraction is left.
     let statistics = comparison.setup.statistics;
     let far = statistics.highest - statistics.mean + 3.0 * comparison.setup.law.range();
-    let first = nearest.max(1e-3 * far);
+    let first = nearest.max(CLOSED * far);
     let mut scene = comparison.setup.scene.clone();
     scene.loading.control = Control::MeanGap;
     scene.loading.path = vec![first];

@@ -17,12 +17,16 @@ use crate::theory::{Law as Reduced, Spectrum, TheoryError};
 const GAMMA: f64 = 0.5;
 /// Least repulsive pressure at which the theory is used, in E* times the rms slope.
 const NO_TENSION: f64 = 1e-5;
+/// Largest factor between the longest wave of a cell and that of the spectrum that stands for it, as a logarithm.
+const WIDENED: f64 = 1.5;
 /// Hurst exponents around 0.8 for which the constants of BAM are valid.
 const BAM_HURST: [f64; 2] = [0.65, 0.95];
 
 /// A spectrum, and how it is approximate.
 struct Found {
     spectrum: Spectrum,
+    /// Wave number of the roll-off that the scene names, 1/m.
+    rolloff: f64,
     limit: Option<&'static str>,
 }
 
@@ -38,9 +42,10 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
         let longest = rough.longest.min(grid.lx.max(grid.ly));
         let rolloff = rough.rolloff.min(longest);
         let wavenumbers = [longest, rolloff, rough.shortest].map(|length| 2.0 * PI / length);
-        if let Ok(spectrum) = Spectrum::new(wavenumbers, rough.hurst, moments.rms_height()) {
+        if let Ok(own) = Spectrum::new(wavenumbers, rough.hurst, moments.rms_height()) {
             return Ok(Found {
-                spectrum,
+                spectrum: widened(&own, &moments).unwrap_or(own),
+                rolloff: own.rolloff_wavenumber(),
                 limit: None,
             });
         }
@@ -49,12 +54,41 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
     match matched(&moments, smallest) {
         Some(spectrum) => Ok(Found {
             spectrum,
+            rolloff: spectrum.rolloff_wavenumber(),
             limit: Some("self-affine spectrum matched to the map"),
         }),
         None => Err(Stopped::Out(
             "no self-affine spectrum has the surface's rms height, slope and curvature".to_owned(),
         )),
     }
+}
+
+/// A spectrum whose long waves begin where it has the rms height and the slope of these moments. The few longest waves of a cell stand for
+/// all those around them, of which some are longer: an integral from the longest wave on with the same height is up to 30 %
+/// steeper.
+fn widened(own: &Spectrum, moments: &SpectralMoments) -> Option<Spectrum> {
+    let slope = moments.rms_slope();
+    let build = |log: f64| {
+        let factor = log.exp();
+        let wavenumbers = [
+            factor * own.smallest_wavenumber(),
+            factor * own.rolloff_wavenumber(),
+            own.largest_wavenumber(),
+        ];
+        Spectrum::new(wavenumbers, own.hurst_exponent(), moments.rms_height())
+    };
+    let miss = |log: f64| build(log).map_or(f64::NAN, |s| (s.rms_slope() / slope).ln());
+    // The band keeps half of its decades.
+    let shortest = (own.largest_wavenumber() / own.rolloff_wavenumber()).ln();
+    let log = root(
+        "a longest wave",
+        miss,
+        -WIDENED,
+        WIDENED.min(0.5 * shortest),
+        1e-10,
+    )
+    .ok()?;
+    build(log).ok()
 }
 
 /// The self-affine spectrum without roll-off from `smallest` (1/m) with these moments.
@@ -148,8 +182,7 @@ pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Stop
     let peak = setup.law.peak_tension();
     let rms_height = setup.statistics.moments.rms_height();
     let range = setup.law.work_of_adhesion() / peak;
-    let stiffness =
-        found.spectrum.rolloff_wavenumber() * rms_height * setup.scene.solid.contact_modulus / peak;
+    let stiffness = found.rolloff * rms_height * setup.scene.solid.contact_modulus / peak;
     let model = BearingArea::new(rms_height / range, stiffness)?;
     let hurst = found.spectrum.hurst_exponent();
     let unusual = !(BAM_HURST[0]..=BAM_HURST[1]).contains(&hurst);
@@ -185,6 +218,41 @@ pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Stop
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Moments of a cell's own waves: the sum over its wave vectors of the spectrum that the heights are drawn from.
+    fn moments_of_cell(own: &Spectrum) -> SpectralMoments {
+        let [first, last] = [own.smallest_wavenumber(), own.largest_wavenumber()];
+        let most = (last / first).round() as i32;
+        let (mut m0, mut m2, mut m4) = (0.0, 0.0, 0.0);
+        for x in -most..=most {
+            for y in -most..=most {
+                let wavenumber = first * f64::from(x * x + y * y).sqrt();
+                if (first * (1.0 - 1e-9)..=last * (1.0 + 1e-9)).contains(&wavenumber) {
+                    let power = own.density(wavenumber) * first * first;
+                    m0 += power;
+                    m2 += power * wavenumber.powi(2) / 2.0;
+                    m4 += power * wavenumber.powi(4) * 3.0 / 8.0;
+                }
+            }
+        }
+        SpectralMoments { m0, m2, m4 }
+    }
+
+    /// The waves of a cell from its side to a sixteenth of it, without roll-off and with one at half of the side. With the cell's own longest wave the
+    /// integral is 27 % and 4.4 % too steep at the same height.
+    #[test]
+    fn the_spectrum_of_a_cell_has_its_height_and_slope() {
+        for (rolloff, too_steep) in [(1.0, 0.27), (2.0, 0.044)] {
+            let own = Spectrum::new([1.0, rolloff, 16.0], 0.8, 0.3).unwrap();
+            let moments = moments_of_cell(&own);
+            let naive = Spectrum::new([1.0, rolloff, 16.0], 0.8, moments.rms_height()).unwrap();
+            let excess = naive.rms_slope() / moments.rms_slope() - 1.0;
+            assert!((excess - too_steep).abs() < 0.02, "{excess}");
+            let found = widened(&own, &moments).expect("a spectrum");
+            assert!((found.rms_slope() / moments.rms_slope() - 1.0).abs() < 1e-8);
+            assert!((found.rms_height() / moments.rms_height() - 1.0).abs() < 1e-12);
+        }
+    }
 
     #[test]
     fn a_spectrum_is_recovered_from_its_moments() {

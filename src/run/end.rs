@@ -1,12 +1,14 @@
 //! How a run ends.
 
+use std::fmt;
+
 use super::memory_check::MemoryError;
 use crate::backend::BackendError;
 use crate::backend::ranks::RankError;
 use crate::device::{DeviceError, SelectedDevice};
 use crate::effect::Effect;
 use crate::output::{Effects, OutputError, Seconds, Summary, peak_memory_bytes};
-use crate::study::{Setup, StepRow, Tension, Unreachable, WalkEnd};
+use crate::study::{Setup, StepRow, Tension, Unreachable, WalkEnd, count_of_steps};
 use crate::surface::SurfaceError;
 
 /// Why a run could not begin or continue.
@@ -56,9 +58,34 @@ pub enum RunStatus {
     Interrupted {
         /// Steps that are finished.
         finished: usize,
-        /// Steps of the path.
+        /// Steps of the path; as many as are finished where it goes on until the surfaces part.
         steps: usize,
     },
+}
+
+impl fmt::Display for RunStatus {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            RunStatus::Finished => write!(formatter, "finished"),
+            RunStatus::NotConverged {
+                step,
+                residual,
+                iterations,
+                tolerance,
+                ..
+            } => write!(
+                formatter,
+                "step {step} did not converge: residual {residual:.1e} after {iterations} iterations, asked {tolerance:.1e}"
+            ),
+            RunStatus::Interrupted { finished, steps } => {
+                write!(
+                    formatter,
+                    "interrupted after {}",
+                    count_of_steps(*finished, *steps)
+                )
+            }
+        }
+    }
 }
 
 /// Results of a run besides its folder.

@@ -52,5 +52,5 @@ pub use step_warnings::step_warnings;
 pub(crate) use attempt::Attempt;
 pub(crate) use hooks::{Carry, Effects, Hooks, Sizes};
 pub(crate) use memory::{DOUBLE, EVALUATION};
-pub(crate) use planned::Planned;
+pub(crate) use planned::{Planned, count_of_steps};
 pub(crate) use step::{SolvedStep, separated};

@@ -164,3 +164,12 @@ fn allowed(setup: &Setup, rows: &[StepRow], greatest: Greatest, moved: f64) -> f
         moved * change
     }
 }
+
+/// As in `3 of 5 steps`; of a path that goes on until the surfaces part, as in `40 steps`.
+pub(crate) fn count_of_steps(finished: usize, steps: usize) -> String {
+    match finished < steps {
+        true => format!("{finished} of {steps} steps"),
+        false if finished == 1 => "1 step".to_owned(),
+        false => format!("{finished} steps"),
+    }
+}

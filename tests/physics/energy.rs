@@ -320,6 +320,12 @@ fn long_steps_find_the_jumps_and_say_how_well_the_loss_is_known() {
         ["60 um", "100 um", "1 MPa", "250 nm", "-1.6 um", "2.5 um"],
         1,
     );
+    // Attraction sets in smoothly at the start of the step that jumps.
+    loop_of(
+        "maugis-dugdale",
+        ["4 um", "2 um", "5 MPa", "60 nm", "-300 nm", "50 nm"],
+        7,
+    );
     for (law, sphere) in [
         (
             "lennard-jones",

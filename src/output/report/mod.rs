@@ -3,25 +3,24 @@
 //! The page contains neither seconds nor dates, so that the same run gives the same page. It loads
 //! nothing and runs no script: pictures are embedded, and a content policy forbids the rest.
 
+mod pictures;
 mod scene_table;
 
 use std::fs;
-use std::path::PathBuf;
 
 use base64::{Engine as _, engine::general_purpose::STANDARD};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
+use self::pictures::{Pictured, chosen, png_size};
 use super::picture::Load;
 use super::plot::curves::{self, Quantity};
 use super::sentence::{AtZeroLoad, loss, per_cent, sentence, step_words};
 use super::summary::Summary;
 use super::visible::visible;
 use crate::effect::Effect;
-use crate::study::{Checkpoint, Planned, Setup, StepRow};
+use crate::study::{Checkpoint, Planned, Setup, StepRow, count_of_steps};
 use crate::units::format_si;
 
-/// Most pictures on a page.
-const MOST_PICTURES: usize = 24;
 /// Most bytes of pictures on a page, so that a phone can open it; one picture is always shown.
 const MOST_PICTURE_BYTES: usize = 12 << 20;
 /// Rows at either end of a long table of steps.
@@ -39,6 +38,8 @@ const STEP_HEADS: [&str; 8] = [
 ];
 /// Column of the force with which the surfaces attract each other.
 const ATTRACTION: &str = "attractive_force";
+/// The end of the column names of what is infinite without contact.
+const RESISTANCE: &str = "resistance";
 const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// Nothing is loaded, and no script runs.
 const POLICY: &str = "default-src 'none'; img-src data:; style-src 'unsafe-inline'";
@@ -56,7 +57,7 @@ pub struct Report<'a> {
     /// Warnings so far.
     pub warnings: &'a [String],
     /// The existing pictures: step, field and file.
-    pub pictures: &'a [(usize, &'static str, PathBuf)],
+    pub pictures: &'a [Pictured],
     /// The summary, once the run has ended.
     pub summary: Option<&'a Summary>,
 }
@@ -136,6 +137,7 @@ impl Report<'_> {
         let steps = self.setup.scene.loading.path.len().max(done);
         let tolerance = self.setup.scene.solver.tolerance;
         let plural = if steps == 1 { "" } else { "s" };
+        let finished = count_of_steps(done, steps);
         let resume =
             html! { code { "tabor run" } " with " code { "--resume" } " continues after them." };
         match (self.rows.last(), self.summary) {
@@ -150,11 +152,11 @@ impl Report<'_> {
                 p.status { "Finished: " (steps) " step" (plural) ", converged to " (format!("{tolerance:e}")) "." }
             },
             (_, Some(_)) => html! {
-                p.status.early { "Ended early: " (done) " of " (steps) " steps are finished. " (resume) }
+                p.status.early { "Ended early: " (finished) " finished. " (resume) }
             },
             (_, None) => html! {
                 p.status.early {
-                    "Not finished: " (done) " of " (steps) " steps were done when this page was written. "
+                    "Not finished: " (finished) " done when this page was written. "
                     "If the run has ended, " (resume)
                 }
             },
@@ -221,8 +223,13 @@ impl Report<'_> {
             };
             // What is left of the attraction has a figure of its own.
             let at_zero = at_zero.filter(|_| column.name() != ATTRACTION);
-            let left = at_zero
-                .map(|place| place.value(self.rows, |row| column.value(row).unwrap_or(f64::NAN)));
+            // A resistance is there what the conductance is.
+            let inverse = column.name().ends_with(RESISTANCE);
+            let turned = |value: f64| if inverse { value.recip() } else { value };
+            let left = at_zero.map(|place| {
+                let value = |row: &StepRow| column.value(row).map_or(f64::NAN, turned);
+                turned(place.value(self.rows, value))
+            });
             let place = match touches {
                 true => format!("at the largest contact, step {}", row.step),
                 false => format!("the greatest of the path, step {}", row.step),
@@ -345,8 +352,7 @@ impl Report<'_> {
         let loading = &self.setup.scene.loading;
         let mut shown = Vec::new();
         let mut bytes_shown = 0;
-        for index in spread(self.pictures.len(), MOST_PICTURES) {
-            let (step, field, path) = &self.pictures[index];
+        for (step, field, path) in chosen(self.pictures) {
             // A picture that cannot be read is left out.
             let Ok(bytes) = fs::read(path) else { continue };
             if !shown.is_empty() && bytes_shown + bytes.len() > MOST_PICTURE_BYTES {
@@ -496,36 +502,5 @@ fn step(row: &StepRow, quantities: &[Quantity], index: usize) -> Markup {
             td { (row.state_words()) }
         }
         "\n"
-    }
-}
-
-/// At most `most` of `count` indices, evenly spread, including both ends.
-fn spread(count: usize, most: usize) -> Vec<usize> {
-    if count <= most {
-        return (0..count).collect();
-    }
-    (0..most).map(|k| k * (count - 1) / (most - 1)).collect()
-}
-
-/// Width and height of a PNG, from its header.
-fn png_size(png: &[u8]) -> Option<[u32; 2]> {
-    let number = |at: usize| -> Option<u32> {
-        Some(u32::from_be_bytes(png.get(at..at + 4)?.try_into().ok()?))
-    };
-    Some([number(16)?, number(20)?])
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn pictures_are_spread_with_both_ends() {
-        assert_eq!(spread(3, 24), [0, 1, 2]);
-        let chosen = spread(1000, 24);
-        assert_eq!(chosen.len(), 24);
-        assert_eq!((chosen[0], chosen[23]), (0, 999));
-        assert!(chosen.windows(2).all(|pair| pair[0] < pair[1]));
-        assert_eq!(spread(25, 24).len(), 24);
     }
 }
