@@ -6,6 +6,7 @@ use crate::grid::Boundary;
 use crate::law::Law;
 use crate::scene::{Scene, Treatment};
 use crate::solver::Start;
+use crate::study::control::Position;
 use crate::study::{
     Attempt, Evaluation, Hooks, HostBytes, Plan, Setup, Sizes, SolvedStep, held_across, separated,
 };
@@ -105,10 +106,15 @@ impl Hooks for Dmt {
     fn solve_value(&self, attempt: &mut Attempt) -> Option<Result<SolvedStep, BackendError>> {
         attempt.controller.is_load().then(|| {
             let (setup, controller) = (attempt.setup, attempt.controller);
-            let asked = controller.force(controller.mean_pressure(attempt.value));
+            let asked = controller.mean_pressure(attempt.value);
             let mut solved = search(attempt)?;
-            if let Some(found) = &solved.evaluation {
-                solved.load_is_met = meets(setup, asked, found.force);
+            if let Some(found) = &mut solved.evaluation {
+                solved.load_is_met = meets(setup, controller.force(asked), found.force);
+                let net = Position {
+                    mean_pressure: asked,
+                    ..found.position
+                };
+                found.missed = controller.missed(&net, found.force);
             }
             Ok(solved)
         })

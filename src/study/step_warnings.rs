@@ -38,13 +38,17 @@ fn missed_value(setup: &Setup, step: &FinishedStep) -> Option<[String; 2]> {
         Control::Force => ("force", "N"),
         Control::Approach | Control::MeanGap => ("approach", "m"),
     };
-    Some([
-        format!(
-            "the pressures do not balance the prescribed {what}, by {}",
-            format_si(evaluation.missed.abs(), unit)
-        ),
-        "; each point is within the tolerance of the pressures, which are far larger than their mean: take a smaller solver.tolerance, and pixels that resolve the range of the law".to_owned(),
-    ])
+    let missed = format_si(evaluation.missed.abs(), unit);
+    Some(match setup.sums_attraction() {
+        true => [
+            format!("the net load misses the prescribed {what} by {missed}"),
+            "; what a point attracts by ends as it comes into contact, and the net load of the treatment jumps past the prescribed one: more points make these jumps smaller".to_owned(),
+        ],
+        false => [
+            format!("the pressures do not balance the prescribed {what}, by {missed}"),
+            "; each point is within the tolerance of the pressures, which are far larger than their mean: take a smaller solver.tolerance, and pixels that resolve the range of the law".to_owned(),
+        ],
+    })
 }
 
 /// That a sphere's contact is wide for a half-space: how wide here, and the words for any step.

@@ -83,7 +83,33 @@ fn a_contact_that_is_wide_for_its_sphere_is_warned_of_once() {
     assert_eq!(said.matches("the radius of contact").count(), 1, "{said}");
 }
 
+/// Crests on few points: as one more of them touches, its attraction ends, and the net load jumps by more than 2 % of the prescribed one.
+fn a_net_load_that_jumps_past_the_prescribed_one_is_warned_of() {
+    let folder = scene(
+        r#"
+grid = { points = [57, 40], size = ["4.805 um", "2.36 um"], boundary = "free" }
+solid = { contact_modulus = "0.5 GPa" }
+surface = [{ kind = "wavy", amplitude = "29.2 nm", wavelength = ["2.4025 um", "1.18 um"] }]
+adhesion = { law = "exponential", work_of_adhesion = 0.3, range = "15.8 nm", treatment = "dmt" }
+loading = { control = "force", path = ["2.87 uN"] }
+output = { images = [] }
+"#,
+    );
+    let output = tabor(
+        folder.path(),
+        &["run", "scene.toml", "--out", "out", "--quiet"],
+    );
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let curve = table(&folder.path().join("out/curve.csv"));
+    let missed = number(&curve[0], "force").expect("a force") - 2.87e-6;
+    assert!(missed.abs() > 0.01 * 2.87e-6, "{missed}");
+    let words = "step 1: the net load misses the prescribed force by ";
+    let said = errors(&output);
+    assert!(said.contains(words), "{said}");
+}
+
 tests![
+    a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
     a_contact_that_is_wide_for_its_sphere_is_warned_of_once,
