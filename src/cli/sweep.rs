@@ -85,7 +85,9 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     }
     // Shares run side by side: --merge joins them.
     if arguments.only.is_none() {
-        folder.write_tables(&study)?;
+        if let Some(warning) = folder.write_tables(&study)? {
+            warn(&warning);
+        }
     }
     report(arguments, &study, &folder, interrupted)
 }
