@@ -4,7 +4,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -131,7 +130,7 @@ def test_a_path_until_apart_has_the_steps_of_a_run(tmp_path, loading):
 
 
 def test_control_c_keeps_the_finished_steps(tmp_path):
-    loads = [f"{0.5 + 0.01 * number} MPa" for number in range(400)]
+    loads = [f"{0.5 + 0.01 * number} MPa" for number in range(60)]
     scene = tabor.Scene({**SCENE, "grid": {"points": 128, "size": "4 um"}, "loading": {"control": "pressure", "path": loads}, "output": {}})
 
     def interrupt(finished, iteration, residual):
@@ -140,16 +139,38 @@ def test_control_c_keeps_the_finished_steps(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         scene.run(tmp_path / "run", images=False, progress=interrupt)
-    # The solver ends at its next iteration, and writes what it has.
-    for _ in range(100):
-        time.sleep(0.05)
-        if (tmp_path / "run" / "summary.json").exists():
-            break
+    # The run has ended: nobody writes into its folder any more, and it has its summary.
+    assert "pull_off_force" in tabor.Run(tmp_path / "run").summary
     finished = len(tabor.Run(tmp_path / "run").curve)
-    assert 2 <= finished < 400
+    assert 2 <= finished < 60
     shorter = scene.run(tmp_path / "run", resume=True, images=False)
-    assert len(shorter.curve) == 400
+    assert len(shorter.curve) == 60
     assert shorter.curve["converged"].all()
+
+
+def test_a_second_control_c_does_not_wait(tmp_path):
+    # A surface is built without a look at who waits for it: on this grid for seconds.
+    code = f"""
+import os, pathlib, signal, sys, threading, time, tabor
+tables = {SCENE!r} | {{"grid": {{"points": 4096, "size": "4 um"}}, "loading": {{"control": "pressure", "path": ["1 MPa"]}}, "output": {{}}}}
+scene = tabor.Scene(tables)
+sent = []
+def interrupt():
+    for _ in range(2):
+        time.sleep(0.3)
+        sent.append(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+threading.Thread(target=interrupt).start()
+try:
+    scene.run({str(tmp_path / "run")!r}, images=False)
+except KeyboardInterrupt:
+    print(len(sent), (pathlib.Path({str(tmp_path / "run")!r}) / "summary.json").exists())
+    sys.stdout.flush()
+    os._exit(0)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["2", "False"]
 
 
 def test_a_check_tells_of_resolution_and_memory():

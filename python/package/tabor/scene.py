@@ -351,7 +351,9 @@ class Scene:
     ) -> Run:
         """Solves every step of the scene into a folder, as the command line does, and opens it.
 
-        Ctrl-C keeps the finished steps, from which ``resume=True`` goes on.
+        Ctrl-C ends it as it ends the command line: after the current iteration, with summary and pictures of the finished
+        steps, from which ``resume=True`` goes on. Only then `KeyboardInterrupt` is raised; a second Ctrl-C raises it at
+        once, while the run still ends by itself.
 
         Parameters
         ----------
