@@ -81,6 +81,11 @@ impl LoadedScene {
         self.scene.resolved_json().to_string()
     }
 
+    /// Refuses arrays that were written to, before their numbers leave the scene.
+    fn check_arrays(&self, py: Python<'_>) -> PyResult<()> {
+        Lent::check(py, &self.lent)
+    }
+
     /// The loads of the scene: its control, in its word, each value, SI, and the seconds that it takes.
     fn loads(&self) -> Vec<(&'static str, f64, Option<f64>)> {
         let loading = &self.scene.loading;

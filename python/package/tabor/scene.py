@@ -176,7 +176,8 @@ class Scene:
 
     @property
     def _arrays(self) -> tuple[Array | None, Array | None]:
-        """Its heights and its map of adhesion, where they are arrays."""
+        """Its heights and its map of adhesion, where they are arrays; refused once they have been written to."""
+        self._loaded.check_arrays()
         return self._heights, self._adhesion_map
 
     def to_toml(self) -> str:
@@ -380,7 +381,7 @@ class Scene:
         return Run(folder)
 
     def __reduce__(self) -> Any:
-        return _restore, (type(self), self._source, self._heights, self._adhesion_map, self.threads, self.path_of_file, self._wording)
+        return _restore, (type(self), self._source, *self._arrays, self.threads, self.path_of_file, self._wording)
 
     def _described(self) -> dict[str, str]:
         """What the scene is, in words."""
