@@ -154,6 +154,14 @@ pub fn toml_from_json(py: Python<'_>, json: &str) -> PyResult<String> {
     toml::to_string(&tables).map_err(|error| errors::raise(py, "SceneError", &error.to_string()))
 }
 
+/// A value, given as JSON, as TOML writes it behind a key, on one line: tables and lists of them within braces.
+#[pyfunction]
+pub fn toml_value_from_json(py: Python<'_>, json: &str) -> PyResult<String> {
+    let value: toml::Value = serde_json::from_str(json)
+        .map_err(|error| errors::raise(py, "SceneError", &error.to_string()))?;
+    Ok(value.to_string())
+}
+
 /// The tables of a scene as JSON; of a syntax error its words.
 #[pyfunction]
 pub fn json_from_toml(py: Python<'_>, text: &str) -> PyResult<String> {

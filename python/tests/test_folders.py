@@ -173,6 +173,37 @@ except KeyboardInterrupt:
     assert done.stdout.split() == ["2", "False"]
 
 
+@pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
+def test_tables_stand_in_place_of_those_of_a_file(tmp_path):
+    tables = {**SCENE, "friction": {"shear_strength": "2 MPa"}}
+    tabor.Scene(tables).write(tmp_path / "scene.toml")
+    other = {
+        "adhesion": {"law": "exponential", "work_of_adhesion": 0.01, "range": "20 nm"},
+        "surface": [{"kind": "sphere", "radius": "5 um"}, {"kind": "wavy", "amplitude": "1 nm", "wavelength": "1 um"}],
+        "friction": {"shear_strength": "1 MPa"},
+        "loading.path": [1e6, "1.5 MPa"],
+        "title": "a = [1], \"b\"\n{c}",
+    }
+    read = tabor.Scene.read(tmp_path / "scene.toml", other)
+    loading = {**SCENE["loading"], "path": other["loading.path"]}
+    expected = {**tables, **{key: value for key, value in other.items() if key != "loading.path"}, "loading": loading}
+    assert read.resolved == tabor.Scene(expected).resolved
+    other = {key: value for key, value in other.items() if key not in ("surface", "friction")}
+    studies = [
+        tabor.compare(SCENE, tmp_path / "given", overrides=other),
+        tabor.compare({**SCENE, "adhesion": other["adhesion"], "loading": loading}, tmp_path / "own"),
+    ]
+    # Rows without their seconds.
+    given, own = ([study["compare"][name] for name in ("model", "mean_pressure", "contact_area_fraction")] for study in studies)
+    np.testing.assert_array_equal(given, own)
+    for wrong, words in (
+        ({"adhesion": {"range": {1, 2}}}, r'^overrides\["adhesion"\].range: .* not set'),
+        ({"surface": [{"radius": float("nan")}]}, r'^overrides\["surface"\].0.radius: nan is no finite number'),
+    ):
+        with pytest.raises(tabor.SceneError, match=words):
+            tabor.Scene.read(tmp_path / "scene.toml", wrong)
+
+
 def test_a_check_tells_of_resolution_and_memory():
     words = tabor.Scene(SCENE).check()
     assert "memory" in words and "cohesive zone" in words

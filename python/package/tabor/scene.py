@@ -19,7 +19,7 @@ from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
 from .quantities import Quantity, refuse_unit, si, words
 from .step import Step
-from .values import Array, checked_overrides, field, plain, thread_count, toml_text
+from .values import Array, field, override_words, thread_count, toml_text
 from .wording import Wording
 
 if TYPE_CHECKING:
@@ -130,7 +130,8 @@ class Scene:
         path : path
             The TOML file.
         overrides : mapping, optional
-            Values in place of the file's, by dotted keys: ``{"grid.points": 128}``.
+            Values in place of the file's, by dotted keys: ``{"grid.points": 128}``. A mapping stands in place of the
+            whole table: ``{"adhesion": {"law": "exponential", ...}}``.
         threads : int, optional
             Threads of the processor.
         """
@@ -140,9 +141,7 @@ class Scene:
         except (OSError, ValueError) as error:
             raise SceneError(f"{path}: cannot be read: {error}") from error
         scene = cls.__new__(cls)
-        chosen = [
-            (key, value if isinstance(value, str) else json.dumps(plain(value, key))) for key, value in checked_overrides(overrides).items()
-        ]
+        chosen = override_words(overrides)
         # Files are read when they are asked for, perhaps from another working directory.
         there = Path(_here()) / path
         scene._begin((text, str(path), str(there.parent), chosen), None, None, threads, there, None)
