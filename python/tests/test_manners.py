@@ -99,6 +99,20 @@ def test_one_time_for_all_loads():
     assert once == [step.time for step in relaxing.path(pressure=np.array([1e6, 2e6, 3e6]), seconds=[2, 2.0])] == [0.0, 2.0, 4.0]
 
 
+@pytest.mark.parametrize(
+    "times",
+    [
+        {"relaxation": [{"modulus": "50 MPa", "time": "1 s"}]},
+        {"law": tabor.MaugisDugdale("20 mJ/m^2", range="50 nm"), "rate": {"reference_speed": "1 um/s", "exponent": 0.5}},
+    ],
+)
+def test_one_load_takes_no_time(times):
+    step = contact(**times).solve(pressure="1 MPa")
+    first = next(contact(**times).path(pressure=["1 MPa", "2 MPa"], seconds=1))
+    assert step.time == first.time == 0
+    np.testing.assert_array_equal(step.pressure, first.pressure)
+
+
 # Which of its images is read, and that the map is tilted.
 @pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
 def test_files_bring_their_size(tmp_path):

@@ -329,6 +329,8 @@ class Scene:
         ----------
         pressure, force, approach, mean_gap : number or text
             One of them: the load, Pa, N, m and m, or with a unit.
+        It takes no time, as the first load of a path; what follows in time is asked for by `path`.
+
         progress : bool or callable, optional
             As in `path`.
         """
@@ -338,7 +340,9 @@ class Scene:
         name, value = control
         if not _is_one(value):
             raise TypeError(f"{name}: solve takes one load, not {type(value).__name__}; path takes many")
-        return LoadPath(self, self._loads(control, None), self._wording_of(control), False, progress, 1)._next(4)
+        # What depends on time needs one of each load.
+        seconds = 0.0 if any(time is not None for _, _, time in self._loaded.loads()) else None
+        return LoadPath(self, self._loads(control, seconds), self._wording_of(control), False, progress, 1)._next(4)
 
     def run(
         self,
