@@ -290,6 +290,25 @@ def test_warnings_point_to_the_line_of_the_user():
     assert {warning.filename for warning in told if issubclass(warning.category, tabor.NotConvergedWarning)} == {__file__}
 
 
+def test_warnings_of_runs_and_surfaces_do_too(tmp_path):
+    # A map that is tilted is warned of, as its surface is built.
+    tilted = np.add.outer(np.zeros(32), np.linspace(0, 1e-6, 32)) + ROUGH
+    np.save(tmp_path / "tilted.npy", tilted)
+    part = tabor.HeightFile(tmp_path / "tilted.npy", unit="m")
+    scene = tabor.Contact(part, "4 um", contact_modulus="100 MPa", loading={"control": "pressure", "path": ["1 kPa"]})
+    calls = (
+        lambda: scene.surface(),
+        lambda: scene.heights(),
+        lambda: scene.run(tmp_path / "run", images=False),
+        lambda: tabor.read_heights(tmp_path / "tilted.npy", "4 um", unit="m"),
+        lambda: tabor.heights(part, 32, "4 um"),
+    )
+    for call in calls:
+        with pytest.warns(tabor.TaborWarning) as told:
+            call()
+        assert {warning.filename for warning in told} == {__file__}
+
+
 @pytest.mark.parametrize(
     ("missing", "call"),
     [

@@ -6,6 +6,7 @@ import functools
 import itertools
 import json
 import os
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -35,6 +36,9 @@ CONTROLS = {
     "approach": ("approach", "length"),
     "mean_gap": ("mean-gap", "length"),
 }
+
+#: Where the modules of this package lie.
+PACKAGE = os.path.dirname(__file__)
 
 #: What `Scene.new` writes.
 KINDS = ("sphere", "rough", "afm", "pillars", "seal", "mems")
@@ -325,12 +329,12 @@ class Scene:
     ) -> Step:
         """Solves one load from the undeformed surfaces: ``contact.solve(force="10 nN")``.
 
+        It takes no time, as the first load of a path; what follows in time is asked for by `path`.
+
         Parameters
         ----------
         pressure, force, approach, mean_gap : number or text
             One of them: the load, Pa, N, m and m, or with a unit.
-        It takes no time, as the first load of a path; what follows in time is asked for by `path`.
-
         progress : bool or callable, optional
             As in `path`.
         """
@@ -446,5 +450,9 @@ def _control(**loads: Any) -> tuple[str, Any] | None:
 
 
 def _warn(said: Iterable[str]) -> None:
+    """Warns of the line that called this package, however deep in it the warning arises."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == PACKAGE:
+        level, frame = level + 1, frame.f_back
     for each in said:
-        warnings.warn(each, TaborWarning, stacklevel=4)
+        warnings.warn(each, TaborWarning, stacklevel=level)
