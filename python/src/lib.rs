@@ -31,7 +31,7 @@ mod _tabor {
     #[pymodule_export]
     use super::run::{command_line, run};
     #[pymodule_export]
-    use super::scene::{LoadedScene, json_from_toml, toml_from_json};
+    use super::scene::{LoadedScene, json_from_toml, toml_from_json, toml_value_from_json};
     #[pymodule_export]
     use super::surface::{scales, self_affine_like, spectrum, statistics};
     #[pymodule_export]

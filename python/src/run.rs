@@ -11,7 +11,7 @@ use tabor::{RunObserver, RunOptions, RunStatus, StepRow};
 use crate::arrays::Lent;
 use crate::errors;
 use crate::scene::LoadedScene;
-use crate::waiting::{Talk, wait};
+use crate::waiting::{Talk, wait_and_join};
 
 /// Hears a run on the solver's thread.
 struct Hearer {
@@ -83,7 +83,7 @@ pub fn run(
     };
     Lent::check(py, &scene.lent)?;
     let (teller, scene) = (scene.teller(), scene.scene.clone());
-    let end = wait(py, &talk, progress, move || {
+    let end = wait_and_join(py, &talk, progress, move || {
         tabor::run_with(scene, &folder, &options, &mut hearer)
     })?;
     let end = end.map_err(|error| errors::of_run(py, teller, &error))?;

@@ -81,6 +81,11 @@ impl LoadedScene {
         self.scene.resolved_json().to_string()
     }
 
+    /// Refuses arrays that were written to, before their numbers leave the scene.
+    fn check_arrays(&self, py: Python<'_>) -> PyResult<()> {
+        Lent::check(py, &self.lent)
+    }
+
     /// The loads of the scene: its control, in its word, each value, SI, and the seconds that it takes.
     fn loads(&self) -> Vec<(&'static str, f64, Option<f64>)> {
         let loading = &self.scene.loading;
@@ -147,6 +152,14 @@ pub fn toml_from_json(py: Python<'_>, json: &str) -> PyResult<String> {
     let tables: toml::Table = serde_json::from_str(json)
         .map_err(|error| errors::raise(py, "SceneError", &error.to_string()))?;
     toml::to_string(&tables).map_err(|error| errors::raise(py, "SceneError", &error.to_string()))
+}
+
+/// A value, given as JSON, as TOML writes it behind a key, on one line: tables and lists of them within braces.
+#[pyfunction]
+pub fn toml_value_from_json(py: Python<'_>, json: &str) -> PyResult<String> {
+    let value: toml::Value = serde_json::from_str(json)
+        .map_err(|error| errors::raise(py, "SceneError", &error.to_string()))?;
+    Ok(value.to_string())
 }
 
 /// The tables of a scene as JSON; of a syntax error its words.

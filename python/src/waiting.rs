@@ -6,7 +6,7 @@
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
-use std::sync::mpsc::{RecvTimeoutError, channel};
+use std::sync::mpsc::{Receiver, RecvTimeoutError, channel};
 use std::thread;
 use std::time::Duration;
 
@@ -61,9 +61,39 @@ impl Talk {
     }
 }
 
+/// What becomes of work that is told to stop.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stopped {
+    /// It ends at its next iteration, and its result is dropped.
+    LeftBehind,
+    /// It is waited for, unless a second signal raises.
+    Joined,
+}
+
 /// Does `work` on another thread, and tells `progress` of its iterations, of the last one in any case. Where a signal or
 /// `progress` raises, the work is told to stop and left behind: it ends at its next iteration, and its result is dropped.
 pub fn wait<R: Send + 'static>(
+    py: Python<'_>,
+    talk: &Arc<Talk>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> PyResult<R> {
+    wait_or(Stopped::LeftBehind, py, talk, progress, work)
+}
+
+/// The same for work that writes files: where a signal or `progress` raises, the work has ended when this returns, and
+/// has written what it has. A second signal leaves it behind.
+pub fn wait_and_join<R: Send + 'static>(
+    py: Python<'_>,
+    talk: &Arc<Talk>,
+    progress: Option<&Bound<'_, PyAny>>,
+    work: impl FnOnce() -> R + Send + 'static,
+) -> PyResult<R> {
+    wait_or(Stopped::Joined, py, talk, progress, work)
+}
+
+fn wait_or<R: Send + 'static>(
+    stopped: Stopped,
     py: Python<'_>,
     talk: &Arc<Talk>,
     progress: Option<&Bound<'_, PyAny>>,
@@ -104,7 +134,22 @@ pub fn wait<R: Send + 'static>(
         let heard = py.check_signals().and_then(|()| tell());
         if let Err(raised) = heard {
             talk.stop.store(true, Ordering::Relaxed);
+            if stopped == Stopped::Joined {
+                join(py, receiver)?;
+            }
             return Err(raised);
         }
+    }
+}
+
+/// Waits until the work has ended, or a signal raises.
+fn join<T: Send>(py: Python<'_>, mut receiver: Receiver<T>) -> PyResult<()> {
+    loop {
+        let (received, back) = py.detach(move || (receiver.recv_timeout(POLL), receiver));
+        receiver = back;
+        if !matches!(received, Err(RecvTimeoutError::Timeout)) {
+            return Ok(());
+        }
+        py.check_signals()?;
     }
 }

@@ -1,5 +1,6 @@
 """Contacts of arrays."""
 
+import copy
 import pickle
 import signal
 import subprocess
@@ -83,7 +84,10 @@ def test_an_array_that_was_written_to_is_refused(argument):
     next(path)
     {"heights": heights, "adhesion_map": factors}[argument][3, 4] *= 1 + 1e-15
     # That the contact sees it shows that the numbers are those of the array.
-    for call in (lambda: next(path), lambda: contact.solve(pressure=1e6), contact.heights, lambda: contact.run("never")):
+    solves = (lambda: next(path), lambda: contact.solve(pressure=1e6), contact.heights, lambda: contact.run("never"))
+    studies = (contact.check, lambda: tabor.compare(contact, "never"), lambda: tabor.accuracy(contact, "never", budget=1))
+    copies = (lambda: pickle.dumps(contact), lambda: copy.copy(contact), lambda: copy.deepcopy(contact))
+    for call in (*solves, *studies, *copies):
         with pytest.raises(tabor.SceneError, match=f"{argument}: this array has been written to"):
             call()
     again = tabor.Contact(heights, 1e-6, contact_modulus=1e9, law=law, adhesion_map=factors)

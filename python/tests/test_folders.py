@@ -4,7 +4,6 @@ import re
 import signal
 import subprocess
 import sys
-import time
 from pathlib import Path
 
 import numpy as np
@@ -131,7 +130,7 @@ def test_a_path_until_apart_has_the_steps_of_a_run(tmp_path, loading):
 
 
 def test_control_c_keeps_the_finished_steps(tmp_path):
-    loads = [f"{0.5 + 0.01 * number} MPa" for number in range(400)]
+    loads = [f"{0.5 + 0.01 * number} MPa" for number in range(60)]
     scene = tabor.Scene({**SCENE, "grid": {"points": 128, "size": "4 um"}, "loading": {"control": "pressure", "path": loads}, "output": {}})
 
     def interrupt(finished, iteration, residual):
@@ -140,16 +139,69 @@ def test_control_c_keeps_the_finished_steps(tmp_path):
 
     with pytest.raises(KeyboardInterrupt):
         scene.run(tmp_path / "run", images=False, progress=interrupt)
-    # The solver ends at its next iteration, and writes what it has.
-    for _ in range(100):
-        time.sleep(0.05)
-        if (tmp_path / "run" / "summary.json").exists():
-            break
+    # The run has ended: nobody writes into its folder any more, and it has its summary.
+    assert "pull_off_force" in tabor.Run(tmp_path / "run").summary
     finished = len(tabor.Run(tmp_path / "run").curve)
-    assert 2 <= finished < 400
+    assert 2 <= finished < 60
     shorter = scene.run(tmp_path / "run", resume=True, images=False)
-    assert len(shorter.curve) == 400
+    assert len(shorter.curve) == 60
     assert shorter.curve["converged"].all()
+
+
+def test_a_second_control_c_does_not_wait(tmp_path):
+    # A surface is built without a look at who waits for it: on this grid for seconds.
+    code = f"""
+import os, pathlib, signal, sys, threading, time, tabor
+tables = {SCENE!r} | {{"grid": {{"points": 4096, "size": "4 um"}}, "loading": {{"control": "pressure", "path": ["1 MPa"]}}, "output": {{}}}}
+scene = tabor.Scene(tables)
+sent = []
+def interrupt():
+    for _ in range(2):
+        time.sleep(0.3)
+        sent.append(signal.SIGINT)
+        signal.raise_signal(signal.SIGINT)
+threading.Thread(target=interrupt).start()
+try:
+    scene.run({str(tmp_path / "run")!r}, images=False)
+except KeyboardInterrupt:
+    print(len(sent), (pathlib.Path({str(tmp_path / "run")!r}) / "summary.json").exists())
+    sys.stdout.flush()
+    os._exit(0)
+"""
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+    assert done.stdout.split() == ["2", "False"]
+
+
+@pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
+def test_tables_stand_in_place_of_those_of_a_file(tmp_path):
+    tables = {**SCENE, "friction": {"shear_strength": "2 MPa"}}
+    tabor.Scene(tables).write(tmp_path / "scene.toml")
+    other = {
+        "adhesion": {"law": "exponential", "work_of_adhesion": 0.01, "range": "20 nm"},
+        "surface": [{"kind": "sphere", "radius": "5 um"}, {"kind": "wavy", "amplitude": "1 nm", "wavelength": "1 um"}],
+        "friction": {"shear_strength": "1 MPa"},
+        "loading.path": [1e6, "1.5 MPa"],
+        "title": "a = [1], \"b\"\n{c}",
+    }
+    read = tabor.Scene.read(tmp_path / "scene.toml", other)
+    loading = {**SCENE["loading"], "path": other["loading.path"]}
+    expected = {**tables, **{key: value for key, value in other.items() if key != "loading.path"}, "loading": loading}
+    assert read.resolved == tabor.Scene(expected).resolved
+    other = {key: value for key, value in other.items() if key not in ("surface", "friction")}
+    studies = [
+        tabor.compare(SCENE, tmp_path / "given", overrides=other),
+        tabor.compare({**SCENE, "adhesion": other["adhesion"], "loading": loading}, tmp_path / "own"),
+    ]
+    # Rows without their seconds.
+    given, own = ([study["compare"][name] for name in ("model", "mean_pressure", "contact_area_fraction")] for study in studies)
+    np.testing.assert_array_equal(given, own)
+    for wrong, words in (
+        ({"adhesion": {"range": {1, 2}}}, r'^overrides\["adhesion"\].range: .* not set'),
+        ({"surface": [{"radius": float("nan")}]}, r'^overrides\["surface"\].0.radius: nan is no finite number'),
+    ):
+        with pytest.raises(tabor.SceneError, match=words):
+            tabor.Scene.read(tmp_path / "scene.toml", wrong)
 
 
 def test_a_check_tells_of_resolution_and_memory():

@@ -99,6 +99,20 @@ def test_one_time_for_all_loads():
     assert once == [step.time for step in relaxing.path(pressure=np.array([1e6, 2e6, 3e6]), seconds=[2, 2.0])] == [0.0, 2.0, 4.0]
 
 
+@pytest.mark.parametrize(
+    "times",
+    [
+        {"relaxation": [{"modulus": "50 MPa", "time": "1 s"}]},
+        {"law": tabor.MaugisDugdale("20 mJ/m^2", range="50 nm"), "rate": {"reference_speed": "1 um/s", "exponent": 0.5}},
+    ],
+)
+def test_one_load_takes_no_time(times):
+    step = contact(**times).solve(pressure="1 MPa")
+    first = next(contact(**times).path(pressure=["1 MPa", "2 MPa"], seconds=1))
+    assert step.time == first.time == 0
+    np.testing.assert_array_equal(step.pressure, first.pressure)
+
+
 # Which of its images is read, and that the map is tilted.
 @pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
 def test_files_bring_their_size(tmp_path):
@@ -274,6 +288,25 @@ def test_warnings_point_to_the_line_of_the_user():
         for _ in rough.path(pressure=[1e6]):
             pass
     assert {warning.filename for warning in told if issubclass(warning.category, tabor.NotConvergedWarning)} == {__file__}
+
+
+def test_warnings_of_runs_and_surfaces_do_too(tmp_path):
+    # A map that is tilted is warned of, as its surface is built.
+    tilted = np.add.outer(np.zeros(32), np.linspace(0, 1e-6, 32)) + ROUGH
+    np.save(tmp_path / "tilted.npy", tilted)
+    part = tabor.HeightFile(tmp_path / "tilted.npy", unit="m")
+    scene = tabor.Contact(part, "4 um", contact_modulus="100 MPa", loading={"control": "pressure", "path": ["1 kPa"]})
+    calls = (
+        lambda: scene.surface(),
+        lambda: scene.heights(),
+        lambda: scene.run(tmp_path / "run", images=False),
+        lambda: tabor.read_heights(tmp_path / "tilted.npy", "4 um", unit="m"),
+        lambda: tabor.heights(part, 32, "4 um"),
+    )
+    for call in calls:
+        with pytest.warns(tabor.TaborWarning) as told:
+            call()
+        assert {warning.filename for warning in told} == {__file__}
 
 
 @pytest.mark.parametrize(

@@ -90,7 +90,7 @@ MISTAKES = [
     (lambda: contact(boundary="free").solve(pressure=1), 'pressure: a free boundary .*; take force or approach, or boundary="periodic"'),
     (lambda: contact(hardness="1 MPa").solve(pressure="2 MPa"), "hardness: the path has a mean pressure of 2 MPa"),
     (lambda: contact(hardness="1 MPa").solve(mean_gap=0), "hardness: mean_gap does not determine .*; take approach"),
-    (lambda: contact(**RELAXING).solve(pressure=1), "seconds: a viscoelastic solid needs durations; give seconds, the time that each load but the first takes"),
+    (lambda: list(contact(**RELAXING).path(pressure=[1, 2])), "seconds: a viscoelastic solid needs durations; give seconds, the time that each load but the first takes"),
     (lambda: list(contact(law=LAW, rate=RATE).path(pressure=[1e6, 2e6])), "seconds: rate-dependent adhesion needs durations; give seconds"),
     (lambda: list(contact(**RELAXING).path(pressure=[1e6, 2e6], seconds=-1)), "seconds: -1 is out of range"),
     # Functions that make surfaces.

@@ -84,8 +84,10 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
         interrupted = solve(&study, &mut folder, arguments.only, jobs, &mut progress)?;
     }
     // Shares run side by side: --merge joins them.
-    if arguments.only.is_none() {
-        folder.write_tables(&study)?;
+    if arguments.only.is_none()
+        && let Some(warning) = folder.write_tables(&study)?
+    {
+        warn(&warning);
     }
     report(arguments, &study, &folder, interrupted)
 }

@@ -15,7 +15,7 @@ use super::error::SweepError;
 use super::means::Means;
 use super::outcome::Outcome;
 use super::picture::picture;
-use super::study::Study;
+use super::study::{PlotTable, Study};
 use super::tables::{runs_table, steps_table};
 use crate::output::{FolderLock, GrowingTable, OutputError, difference, write_atomically};
 
@@ -23,6 +23,8 @@ use crate::output::{FolderLock, GrowingTable, OutputError, difference, write_ato
 const MARKER: &str = "study.json";
 /// Beginning and end of the names of files of cases.
 const CASES: [&str; 2] = ["cases", ".jsonl"];
+/// The means and their pictures.
+const MEANS: [&str; 3] = ["means.csv", "means.png", "means.svg"];
 
 #[derive(Debug, Serialize, Deserialize)]
 struct Marker {
@@ -143,20 +145,49 @@ impl SweepFolder {
         Ok(())
     }
 
-    /// Writes `sweep.csv`, `runs.csv` and the means with their pictures.
+    /// Writes `sweep.csv`, `runs.csv` and the means with their pictures. Returns a warning where the study names what is
+    /// drawn, and finished cases do not have it.
     ///
     /// # Errors
     /// What the system says.
-    pub fn write_tables(&self, study: &Study) -> Result<(), SweepError> {
+    pub fn write_tables(&self, study: &Study) -> Result<Option<String>, SweepError> {
         let outcomes: Vec<&Outcome> = self.outcomes().collect();
         let keys: Vec<&str> = study.keys().collect();
         let write =
             |name: &str, text: String| write_atomically(&self.path.join(name), text.as_bytes());
         write("sweep.csv", steps_table(&keys, &outcomes))?;
         write("runs.csv", runs_table(&keys, &outcomes))?;
-        if let Some(means) = Means::new(study, &outcomes) {
-            write("means.csv", means.table())?;
-            picture(study, &means).write(&self.path.join("means.png"))?;
+        let is_asked =
+            study.plot != PlotTable::default() && outcomes.iter().any(|it| it.is_finished());
+        match Means::new(study, &outcomes) {
+            Ok(means) => {
+                write("means.csv", means.table())?;
+                picture(study, &means).write(&self.path.join("means.png"))?;
+                let warning = || {
+                    format!(
+                        "plot.x: finished cases without a number at {}, which are in no mean: {}",
+                        means.x, means.left_out
+                    )
+                };
+                Ok((means.left_out > 0).then(warning))
+            }
+            Err(missing) => {
+                self.remove_means()?;
+                Ok(is_asked.then(|| format!("{missing}; there are no means and no picture")))
+            }
+        }
+    }
+
+    /// Removes the means of an earlier call, whose `[plot]` may have been another.
+    fn remove_means(&self) -> Result<(), OutputError> {
+        for name in MEANS {
+            let path = self.path.join(name);
+            match fs::remove_file(&path) {
+                Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                    return Err(OutputError::write("remove", &path)(error));
+                }
+                _ => {}
+            }
         }
         Ok(())
     }

@@ -23,6 +23,8 @@ pub(super) struct Means {
     pub curves: Vec<Curve>,
     /// The number of runs.
     pub runs: usize,
+    /// Finished cases without a number along x, which are in no mean.
+    pub left_out: usize,
 }
 
 /// The means for one value of the series.
@@ -46,15 +48,25 @@ pub(super) struct Mean {
 }
 
 impl Means {
-    /// The means over the finished cases; `None` where no key with several numbers can be along x.
-    pub fn new(study: &Study, outcomes: &[&Outcome]) -> Option<Means> {
+    /// The means over the finished cases, or what is missing for them.
+    pub fn new(study: &Study, outcomes: &[&Outcome]) -> Result<Means, String> {
         let finished: Vec<&Outcome> = outcomes
             .iter()
             .copied()
             .filter(|outcome| outcome.is_finished())
             .collect();
         let keys: Vec<&str> = study.keys().collect();
-        let (x, series) = places(study, &keys, &finished)?;
+        let (x, series) = places(study, &keys, &finished).ok_or(
+            "[plot]: no key takes several numbers, along which means could be drawn; give an axis of numbers",
+        )?;
+        let has_x = |outcome: &&Outcome| number(&outcome.values[x]).is_some();
+        let left_out = finished.len() - finished.iter().copied().filter(has_x).count();
+        if left_out == finished.len() {
+            return Err(format!(
+                "plot.x: no finished case has a number at {}; take a key with numbers as x, and this one as series",
+                keys[x]
+            ));
+        }
         let quantity = quantity(study, &finished)?;
         let values = match series {
             Some(series) => distinct(&finished, series),
@@ -77,7 +89,13 @@ impl Means {
         let runs = points.map(|point| point.runs).sum();
         let is_other =
             |key: &usize| *key != x && Some(*key) != series && distinct(&finished, *key).len() > 1;
-        (runs > 0).then(|| Means {
+        if runs == 0 {
+            return Err(format!(
+                "[plot]: no finished case has both a number at {} and {}",
+                keys[x], quantity.name
+            ));
+        }
+        Ok(Means {
             quantity,
             x: keys[x].to_owned(),
             series: series.map(|key| keys[key].to_owned()),
@@ -87,6 +105,7 @@ impl Means {
                 .collect(),
             curves,
             runs,
+            left_out,
         })
     }
 
@@ -141,14 +160,24 @@ fn places(study: &Study, keys: &[&str], outcomes: &[&Outcome]) -> Option<(usize,
     Some((x, series.filter(|key| *key != x)))
 }
 
-/// What the study names, else the first choice that the runs have.
-fn quantity(study: &Study, outcomes: &[&Outcome]) -> Option<Quantity> {
+/// What the study names, else the first choice that the runs have; or that they do not have it.
+fn quantity(study: &Study, outcomes: &[&Outcome]) -> Result<Quantity, String> {
     let is_there = |name: &str| outcomes.iter().any(|it| it.quantity(name).is_some());
-    let name = match &study.plot.y {
-        Some(name) => name.as_str(),
-        None => CHOSEN.into_iter().find(|name| is_there(name))?,
+    let known = |name: &str| QUANTITIES.into_iter().find(|known| known.name == name);
+    let named = study.plot.y.as_deref();
+    let chosen = match named {
+        Some(name) => Some(name).filter(|name| is_there(name)),
+        None => CHOSEN.into_iter().find(|name| is_there(name)),
     };
-    QUANTITIES.into_iter().find(|known| known.name == name)
+    chosen.and_then(known).ok_or_else(|| {
+        let others = QUANTITIES.iter().map(|known| known.name);
+        let others: Vec<&str> = others.filter(|name| is_there(name)).collect();
+        format!(
+            "plot.y: no finished case has {}; they have {}",
+            named.unwrap_or(&CHOSEN.join(" or ")),
+            others.join(", ")
+        )
+    })
 }
 
 /// The distinct values of a key, numbers in their order.

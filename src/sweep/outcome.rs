@@ -197,7 +197,7 @@ fn values(case: &Case, scene: Option<&Scene>) -> Vec<String> {
 }
 
 /// A value as it is written, in SI where it is a quantity: the resolved scene has another key in its place.
-fn written(text: &str) -> String {
+pub(super) fn written(text: &str) -> String {
     // A text is itself; anything else stays as TOML has it.
     let text = match toml::Value::from_str(text) {
         Ok(toml::Value::String(text)) => text,

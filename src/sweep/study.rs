@@ -1,15 +1,15 @@
 //! A study file: a scene, its axes, what is kept and drawn.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashMap};
 use std::path::{Path, PathBuf};
 
 use serde::Deserialize;
 use serde_json::json;
 
 use super::axis::{Axis, AxisTable};
-use super::cases::{Case, cases};
+use super::cases::{Case, cases, value_at};
 use super::error::SweepError;
-use super::outcome::QUANTITIES;
+use super::outcome::{QUANTITIES, written};
 use crate::scene::{Scene, SceneError, SceneErrors, unit_of};
 use crate::units::parse_any_quantity;
 
@@ -222,9 +222,14 @@ impl Study {
         let first = self.check_scene(&indices)?;
         add_files(&first, &mut files);
         for axis in 0..self.axes.len() {
+            let mut seen = HashMap::from([(self.understood(axis, 0, &first), 0)]);
             for value in 1..self.axes[axis].values.len() {
                 indices[axis] = value;
-                add_files(&self.check_scene(&indices)?, &mut files);
+                let scene = self.check_scene(&indices)?;
+                add_files(&scene, &mut files);
+                if let Some(before) = seen.insert(self.understood(axis, value, &scene), value) {
+                    return Err(self.repeated(axis, before, value));
+                }
             }
             indices[axis] = 0;
         }
@@ -243,6 +248,39 @@ impl Study {
         // In the order of the files' paths, which depend on the folder of the call.
         study["checksums of files"] = files.into_values().collect();
         Ok(study.to_string())
+    }
+
+    /// A value of an axis as its scene understood it: texts of two are equal where the values are.
+    fn understood(&self, axis: usize, value: usize, scene: &Scene) -> String {
+        let Axis { keys, values } = &self.axes[axis];
+        let resolved = scene.resolved_json();
+        let each = keys.iter().zip(&values[value]);
+        let each = each.map(|(key, text)| match value_at(&resolved, key) {
+            Some(understood) if !understood.is_null() => understood.to_string(),
+            // The resolved scene has another key in its place.
+            _ => match written(text) {
+                text if text.parse::<f64>().is_ok() => format!("{:?}", text.parse::<f64>()),
+                text => text,
+            },
+        });
+        each.collect::<Vec<_>>().join("\n")
+    }
+
+    /// Two values of an axis that are the same: their runs would count as independent ones in the means.
+    fn repeated(&self, axis: usize, before: usize, value: usize) -> SweepError {
+        let Axis { keys, values } = &self.axes[axis];
+        let [before, again] = [before, value].map(|index| values[index].join(", "));
+        let reason = if before == again {
+            format!("{again} comes twice; leave one of them out")
+        } else {
+            format!("{again} is the same as {before}; leave one of them out")
+        };
+        SweepError::Axis {
+            path: self.path.clone(),
+            axis: axis + 1,
+            key: keys.join(", "),
+            reason,
+        }
     }
 
     fn check_scene(&self, indices: &[usize]) -> Result<Scene, SweepError> {

@@ -446,6 +446,47 @@ fn the_shipped_study_runs() {
     );
 }
 
+/// What `[plot]` names and no run has is warned of, and pictures of another `[plot]` do not stay.
+fn a_plot_of_what_is_not_there_is_warned_of() {
+    let place = folder("");
+    let out = place.path().join("out");
+    let sweep = |plot: &str| {
+        let study = format!(
+            "scene = \"scene.toml\"\nset.loading.path = [2e5]\nplot = {{ {plot} }}\n[[axis]]\nkey = \"adhesion.law\"\nvalues = [\"maugis-dugdale\", \"exponential\"]\n[[axis]]\nkey = \"adhesion.range\"\nvalues = [\"auto\", \"20 nm\"]\n[[axis]]\nkey = \"surface.0.seed\"\nvalues = [1, 2]\n"
+        );
+        fs::write(place.path().join("study.toml"), study).expect("written");
+        let call = ["sweep", "study.toml", "--out", "out", "--quiet"];
+        let output = tabor(place.path(), &call);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        (errors(&output), out.join("means.csv").exists())
+    };
+    let (said, is_there) = sweep("x = \"surface.0.seed\"");
+    assert!(is_there && !said.contains("plot"), "{said}");
+    assert!(out.join("means.png").exists());
+    for (plot, expected) in [
+        (
+            "x = \"adhesion.law\"",
+            "plot.x: no finished case has a number at adhesion.law; take a key with numbers as x",
+        ),
+        (
+            "x = \"surface.0.seed\", y = \"hysteresis_energy\"",
+            "plot.y: no finished case has hysteresis_energy; they have largest_contact_area_fraction, ",
+        ),
+    ] {
+        let (said, is_there) = sweep(plot);
+        assert!(
+            said.contains(expected) && said.contains("no means and no picture"),
+            "{said}"
+        );
+        assert!(!is_there && !out.join("means.png").exists(), "{plot}");
+    }
+    let (said, is_there) = sweep("x = \"adhesion.range\"");
+    assert!(
+        is_there && said.contains("without a number at adhesion.range, which are in no mean: 4"),
+        "{said}"
+    );
+}
+
 fn what_is_no_study_is_refused_in_one_message() {
     let axis = "scene = \"scene.toml\"\n[[axis]]\n";
     for (study, expected) in [
@@ -480,6 +521,31 @@ fn what_is_no_study_is_refused_in_one_message() {
         (
             &format!("plot = {{ x = \"pull\" }}\n{axis}key = \"surface.0.seed\"\nvalues = [1]\n"),
             "plot.x",
+        ),
+        (
+            &format!("{axis}key = \"surface.0.seed\"\nvalues = [1, 2, 1]\n"),
+            "axis 1 (surface.0.seed): 1 comes twice; leave one of them out",
+        ),
+        (
+            &format!("{axis}key = \"adhesion.work_of_adhesion\"\nvalues = [\"50 mJ/m^2\", 0.05]\n"),
+            "0.05 is the same as \"50 mJ/m^2\"",
+        ),
+        (
+            &format!("{axis}key = \"grid.points\"\nvalues = [32, [32, 32]]\n"),
+            "[32, 32] is the same as 32",
+        ),
+        // A key that the resolved scene does not have: it has the loads of the ramp.
+        (
+            &format!(
+                "{axis}key = \"loading\"\nvalues = [{{ control = \"pressure\", start = 0.0, ramp = [{{ to = 1e6, steps = 2 }}] }}]\n[[axis]]\nkey = \"loading.start\"\nvalues = [\"1 kPa\", 1000.0]\n"
+            ),
+            "axis 2 (loading.start): 1000.0 is the same as \"1 kPa\"",
+        ),
+        (
+            &format!(
+                "{axis}keys = [\"surface.0.seed\", \"grid.points\"]\nvalues = [[1, 32], [2, 32], [1, 32]]\n"
+            ),
+            "axis 1 (surface.0.seed, grid.points): 1, 32 comes twice",
         ),
     ] {
         let place = folder(study);
@@ -536,5 +602,6 @@ tests![
     axes_take_lists_files_and_several_keys,
     a_full_disk_ends_a_study_and_keeps_what_is_finished,
     the_shipped_study_runs,
+    a_plot_of_what_is_not_there_is_warned_of,
     what_is_no_study_is_refused_in_one_message,
 ];

@@ -76,7 +76,7 @@ class Contact(Scene):
         copied; of another type, such as float32, or in another order one copy is made, of float64, in which the solver reads
         heights whatever its precision. Refused are float16, whose steps are 60 nm and more in metres, truth values, and
         arrays with a unit other than m (of astropy, pint, unyt or xarray), which NumPy would drop. A shared array must stay as it is: once it has been written to, the contact
-        refuses to solve. Give ``heights.copy()`` where you will go on writing. A file (its path, or a `HeightFile`) and
+        refuses to solve, and to be checked, studied, copied or pickled. Give ``heights.copy()`` where you will go on writing. A file (its path, or a `HeightFile`) and
         parts such as ``Sphere("1 um")`` are what they are in a scene.
     size : number or text, or two of them
         Lengths of the cell along x and y, m; a Surface, a Topography and most files of instruments bring their own, a

@@ -14,7 +14,7 @@ import numpy as np
 
 from . import _tabor
 from .scene import Scene
-from .values import checked_overrides, toml_text
+from .values import override_words, toml_text
 
 
 #: Where a parser stopped in a text.
@@ -27,15 +27,7 @@ Tell = Callable[[str], str]
 
 def set_words(overrides: Mapping[str, Any] | None) -> list[str]:
     """Values in place of a scene's as words of the command line."""
-    words = []
-    for key, value in checked_overrides(overrides).items():
-        words += ["--set", f"{key}={value if isinstance(value, str) else toml_value(value)}"]
-    return words
-
-
-def toml_value(value: Any) -> str:
-    """A value as TOML writes it."""
-    return toml_text({"value": value}).partition("=")[2].strip()
+    return [word for key, text in override_words(overrides) for word in ("--set", f"{key}={text}")]
 
 
 def operand(path: str | os.PathLike[str]) -> str:

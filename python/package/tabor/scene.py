@@ -6,6 +6,7 @@ import functools
 import itertools
 import json
 import os
+import sys
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from pathlib import Path
@@ -19,7 +20,7 @@ from .errors import NotConvergedWarning, OutputError, SceneError, TaborWarning
 from .path import Load, Path as LoadPath
 from .quantities import Quantity, refuse_unit, si, words
 from .step import Step
-from .values import Array, checked_overrides, field, plain, thread_count, toml_text
+from .values import Array, field, override_words, thread_count, toml_text
 from .wording import Wording
 
 if TYPE_CHECKING:
@@ -35,6 +36,9 @@ CONTROLS = {
     "approach": ("approach", "length"),
     "mean_gap": ("mean-gap", "length"),
 }
+
+#: Where the modules of this package lie.
+PACKAGE = os.path.dirname(__file__)
 
 #: What `Scene.new` writes.
 KINDS = ("sphere", "rough", "afm", "pillars", "seal", "mems")
@@ -130,7 +134,8 @@ class Scene:
         path : path
             The TOML file.
         overrides : mapping, optional
-            Values in place of the file's, by dotted keys: ``{"grid.points": 128}``.
+            Values in place of the file's, by dotted keys: ``{"grid.points": 128}``. A mapping stands in place of the
+            whole table: ``{"adhesion": {"law": "exponential", ...}}``.
         threads : int, optional
             Threads of the processor.
         """
@@ -140,9 +145,7 @@ class Scene:
         except (OSError, ValueError) as error:
             raise SceneError(f"{path}: cannot be read: {error}") from error
         scene = cls.__new__(cls)
-        chosen = [
-            (key, value if isinstance(value, str) else json.dumps(plain(value, key))) for key, value in checked_overrides(overrides).items()
-        ]
+        chosen = override_words(overrides)
         # Files are read when they are asked for, perhaps from another working directory.
         there = Path(_here()) / path
         scene._begin((text, str(path), str(there.parent), chosen), None, None, threads, there, None)
@@ -176,7 +179,8 @@ class Scene:
 
     @property
     def _arrays(self) -> tuple[Array | None, Array | None]:
-        """Its heights and its map of adhesion, where they are arrays."""
+        """Its heights and its map of adhesion, where they are arrays; refused once they have been written to."""
+        self._loaded.check_arrays()
         return self._heights, self._adhesion_map
 
     def to_toml(self) -> str:
@@ -325,6 +329,8 @@ class Scene:
     ) -> Step:
         """Solves one load from the undeformed surfaces: ``contact.solve(force="10 nN")``.
 
+        It takes no time, as the first load of a path; what follows in time is asked for by `path`.
+
         Parameters
         ----------
         pressure, force, approach, mean_gap : number or text
@@ -338,7 +344,9 @@ class Scene:
         name, value = control
         if not _is_one(value):
             raise TypeError(f"{name}: solve takes one load, not {type(value).__name__}; path takes many")
-        return LoadPath(self, self._loads(control, None), self._wording_of(control), False, progress, 1)._next(4)
+        # What depends on time needs one of each load.
+        seconds = 0.0 if any(time is not None for _, _, time in self._loaded.loads()) else None
+        return LoadPath(self, self._loads(control, seconds), self._wording_of(control), False, progress, 1)._next(4)
 
     def run(
         self,
@@ -351,7 +359,9 @@ class Scene:
     ) -> Run:
         """Solves every step of the scene into a folder, as the command line does, and opens it.
 
-        Ctrl-C keeps the finished steps, from which ``resume=True`` goes on.
+        Ctrl-C ends it as it ends the command line: after the current iteration, with summary and pictures of the finished
+        steps, from which ``resume=True`` goes on. Only then `KeyboardInterrupt` is raised; a second Ctrl-C raises it at
+        once, while the run still ends by itself.
 
         Parameters
         ----------
@@ -378,7 +388,7 @@ class Scene:
         return Run(folder)
 
     def __reduce__(self) -> Any:
-        return _restore, (type(self), self._source, self._heights, self._adhesion_map, self.threads, self.path_of_file, self._wording)
+        return _restore, (type(self), self._source, *self._arrays, self.threads, self.path_of_file, self._wording)
 
     def _described(self) -> dict[str, str]:
         """What the scene is, in words."""
@@ -440,5 +450,9 @@ def _control(**loads: Any) -> tuple[str, Any] | None:
 
 
 def _warn(said: Iterable[str]) -> None:
+    """Warns of the line that called this package, however deep in it the warning arises."""
+    level, frame = 1, sys._getframe()
+    while frame.f_back is not None and os.path.dirname(frame.f_code.co_filename) == PACKAGE:
+        level, frame = level + 1, frame.f_back
     for each in said:
-        warnings.warn(each, TaborWarning, stacklevel=4)
+        warnings.warn(each, TaborWarning, stacklevel=level)

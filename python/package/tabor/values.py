@@ -130,3 +130,19 @@ def checked_overrides(overrides: Any) -> Mapping[str, Any]:
         if value is None:
             raise SceneError(f'overrides["{key}"]: a value is expected, not None')
     return overrides
+
+
+def override_words(overrides: Any) -> list[tuple[str, str]]:
+    """Values by dotted keys in the words of the command line: a text as it is, anything else as TOML writes it."""
+    return [
+        (key, value if isinstance(value, str) else toml_value(value, f'overrides["{key}"]'))
+        for key, value in checked_overrides(overrides).items()
+    ]
+
+
+def toml_value(value: Any, place: str) -> str:
+    """A value at a place of the arguments as TOML writes it behind a key, on one line."""
+    try:
+        return _tabor.toml_value_from_json(json.dumps(plain(value, place)))
+    except RecursionError as error:
+        raise SceneError(f"{place}: numbers, texts, lists and tables are expected: {error}") from None
