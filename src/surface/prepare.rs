@@ -133,7 +133,8 @@ pub(super) fn crop(matrix: &mut Matrix, crop: [usize; 4]) -> Result<(), FileErro
 }
 
 /// Interpolates points that stand out of their eight neighbours' median by more than `times` the standard deviation
-/// of such differences, estimated from their median. Returns how many; none where a process has ended.
+/// of such differences, estimated from their median, or where that is 0 from that of the others. Returns how many; none where a
+/// process has ended.
 ///
 /// # Errors
 /// More of them than several processes fill.
@@ -142,10 +143,10 @@ pub(super) fn remove_outliers(
     share: &Share,
     times: f64,
     periodic: bool,
-) -> Result<usize, FileError> {
+) -> Result<Outliers, FileError> {
     let columns = share.surface()[0];
     let Ok([before, after]) = share.surface_rows_beside(values) else {
-        return Ok(0);
+        return Ok(Outliers::default());
     };
     // The held rows between those beside them, which an edge of the map lacks.
     let around_here = [&before[..], values, &after[..]].concat();
@@ -154,17 +155,38 @@ pub(super) fn remove_outliers(
         .collect();
     drop(around_here);
     let mut sizes: Vec<f64> = differences.iter().map(|one| one.abs()).collect();
-    let deviation = NORMAL * median_of_all(&mut sizes, share);
+    let mut deviation = NORMAL * median_of_all(&mut sizes, share);
+    let are_few_different = deviation == 0.0;
+    if are_few_different {
+        // Terraces and heights of few levels: most points equal their neighbours.
+        sizes.retain(|size| *size > 0.0);
+        deviation = NORMAL * median_of_all(&mut sizes, share);
+    }
     drop(sizes);
     if deviation == 0.0 {
-        return Ok(0);
+        return Ok(Outliers::default());
     }
     for (value, difference) in values.iter_mut().zip(&differences) {
         if difference.abs() > times * deviation {
             *value = f64::NAN;
         }
     }
-    fill::interpolate(values, share, periodic)
+    Ok(Outliers {
+        count: fill::interpolate(values, share, periodic)?,
+        are_few_different,
+        deviation,
+    })
+}
+
+/// What stands out of a map.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Outliers {
+    /// Points that stood out and are interpolated.
+    pub(super) count: usize,
+    /// Whether most points equal the median of their neighbours, so that the standard deviation is that of the others.
+    pub(super) are_few_different: bool,
+    /// The standard deviation, in the unit of the numbers.
+    pub(super) deviation: f64,
 }
 
 /// The up to eight neighbours of a point.
@@ -187,8 +209,11 @@ fn median_of_all(sizes: &mut [f64], share: &Share) -> f64 {
     if share.is_whole() {
         return median(sizes);
     }
-    let [columns, rows] = share.surface();
-    let below = rows * columns / 2;
+    let [all] = share.counts([sizes.len()]);
+    if all == 0 {
+        return 0.0;
+    }
+    let below = all / 2;
     // The bits of numbers without a sign are in their order: the last number that has no more than that many below it.
     let (mut least, mut greatest) = (0, f64::INFINITY.to_bits());
     while least < greatest {
@@ -274,10 +299,8 @@ mod tests {
         let mut values = rough.clone();
         values[210] = 500.0;
         values[399] = -300.0;
-        assert_eq!(
-            remove_outliers(&mut values, &all(20, 20), 8.0, false).unwrap(),
-            2
-        );
+        let found = remove_outliers(&mut values, &all(20, 20), 8.0, false).unwrap();
+        assert_eq!((found.count, found.are_few_different), (2, false));
         for (index, (value, before)) in values.iter().zip(&rough).enumerate() {
             if index == 210 || index == 399 {
                 assert!((0.0..=10.0).contains(value), "{index}: {value}");
@@ -287,10 +310,26 @@ mod tests {
         }
         let mut flat = vec![1.0; 9];
         flat[4] = 2.0;
+        let found = remove_outliers(&mut flat, &all(3, 3), 5.0, false).unwrap();
+        assert_eq!((found.count, found.are_few_different), (0, true));
+        // Terraces of 6 and 2 points: the difference at most edges is a step.
+        let terraces = |at: usize| f64::from(u8::from((at / 64 + at % 64) % 8 >= 6));
+        let mut values: Vec<f64> = (0..64 * 64).map(terraces).collect();
+        values[20 * 64 + 20] = 500.0;
+        let found = remove_outliers(&mut values, &all(64, 64), 6.0, false).unwrap();
         assert_eq!(
-            remove_outliers(&mut flat, &all(3, 3), 5.0, false).unwrap(),
-            0
+            (found.count, found.are_few_different, found.deviation),
+            (1, true, NORMAL)
         );
+        for (at, value) in values.iter().enumerate() {
+            match at == 20 * 64 + 20 {
+                true => assert!((0.0..=1.0).contains(value), "{value}"),
+                false => assert_eq!(*value, terraces(at)),
+            }
+        }
+        let mut level = vec![1.0; 9];
+        let found = remove_outliers(&mut level, &all(3, 3), 5.0, false).unwrap();
+        assert_eq!(found, Outliers::default());
     }
 
     #[test]

@@ -456,6 +456,12 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
     );
     report(folder, &[&call[..], &["--edges", "window"]].concat());
     assert!(written(&out).1[0].abs() < 0.1 * height(0, 0).abs());
+    // Edges that were made to meet are those of a periodic map: the scene that is written is periodic.
+    let closed = [&call[..], &["--edges", "window", "--resample", "64, 48"]].concat();
+    report(folder, &closed);
+    let (_, free) = written(&out);
+    report(folder, &[&closed[..], &["--boundary", "periodic"]].concat());
+    assert_eq!(free, written(&out).1);
     // A spike goes, with a word about it.
     matrix(folder, "spiked.txt", [24, 32], |y, x| {
         height(y, x) + if [y, x] == [5, 9] { 1e-6 } else { 0.0 }
