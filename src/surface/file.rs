@@ -191,6 +191,11 @@ pub(super) fn heights_of(
     let [factor, zero] = factor_and_zero(&matrix, scene, unit)?;
     let mut heights = matrix.values;
     let mut warnings = matrix.warnings;
+    if let Some(unit) = matrix.lateral_unit {
+        warnings.push(format!(
+            "the file gives {unit:e} m as the unit of x, which only points x y z and a profile (profile = true) have"
+        ));
+    }
     fill_missing(&mut heights, share, scene.fill, boundary, &mut warnings)?;
 
     let is_periodic = boundary == Boundary::Periodic;

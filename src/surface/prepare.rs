@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::error::FileError;
 use super::fill;
+use super::formats::UNEVEN;
 use super::matrix::{Map, Matrix, PASSED, Size};
 use crate::backend::{BackendError, Share};
 
@@ -11,8 +12,6 @@ use crate::backend::{BackendError, Share};
 const LINE: usize = 1000;
 /// or if it has two rows of at least so many points.
 const LEAST_LINE: usize = 16;
-/// Relative difference of steps of a profile up to which they are equal.
-const EQUAL: f64 = 1e-3;
 /// A window falls to zero over one part in so many of each side.
 const WINDOW: usize = 8;
 /// Standard deviation of a normal distribution over its median absolute deviation.
@@ -68,10 +67,14 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
         ));
     }
     header.size = match (length, header.size) {
-        (Some(length), _) => Some(Size::LikeHeights([length; 2])),
+        (Some(length), _) => Some(match header.lateral_unit {
+            Some(unit) => Size::Metres([length * unit; 2]),
+            None => Size::LikeHeights([length; 2]),
+        }),
         (None, Some(Size::Metres(size))) => Some(Size::Metres([size[0].max(size[1]); 2])),
         (None, size) => size,
     };
+    header.lateral_unit = None;
     (header.rows, header.columns) = (1, count);
     Ok(header.with(heights))
 }
@@ -80,8 +83,12 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
 fn length(places: &[f64]) -> Option<f64> {
     let (first, last) = (places.first()?, places.last()?);
     let step = (last - first) / (places.len() as f64 - 1.0);
-    let mut steps = places.windows(2).map(|pair| pair[1] - pair[0]);
-    let equal = step != 0.0 && steps.all(|one| (one - step).abs() <= EQUAL * step.abs());
+    let mut numbered = places.iter().enumerate();
+    // Rounding to few digits moves each place, however many steps lie before it; as of points on a grid.
+    let is_even = |(index, place): (usize, &f64)| {
+        (place - first - index as f64 * step).abs() <= UNEVEN * step.abs()
+    };
+    let equal = step != 0.0 && numbered.all(is_even);
     equal.then(|| step.abs() * places.len() as f64)
 }
 
@@ -378,6 +385,21 @@ mod tests {
             (uneven.values[2], uneven.size, uneven.warnings.len()),
             (9.0, None, 1)
         );
+        // Places of few digits: 1/3 is moved by 1 % of a step.
+        let rounded = profile(vec![0.0, 0.33, 0.67, 1.0, 3.0, 4.0, 6.0, 5.0], [2, 4]).unwrap();
+        assert_eq!(rounded.values, [3.0, 4.0, 6.0, 5.0]);
+        let Some(Size::LikeHeights([length, _])) = rounded.size else {
+            panic!("{:?}", rounded.size);
+        };
+        assert!((length - 4.0 / 3.0).abs() < 1e-12, "{length}");
+        // Places in their own unit.
+        let places = Matrix {
+            unit: Some(1e-9),
+            lateral_unit: Some(1e-3),
+            ..Matrix::new(vec![0.0, 3.0, 0.5, 4.0, 1.0, 6.0], [3, 2])
+        };
+        let found = to_profile(places.into()).unwrap();
+        assert_eq!(found.size, Some(Size::Metres([1.5 * 1e-3; 2])));
         // More lines, and more rows than are read at once.
         let many = (0..3 * PASSED).map(|at| at as f64).collect();
         let first = profile(many, [PASSED, 3]).unwrap();
