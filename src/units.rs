@@ -356,6 +356,16 @@ pub fn unit_factor(name: &str, expected: Dimension) -> Result<f64, UnitError> {
     Ok(scale("1", 0, unit))
 }
 
+/// The head of a column, `force [nN]` or `force (nN)`, as name and unit.
+pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
+    for (open, close) in [('[', ']'), ('(', ')')] {
+        if let Some((name, rest)) = text.split_once(open) {
+            return (name.trim(), Some(rest.trim_end().trim_end_matches(close)));
+        }
+    }
+    (text, None)
+}
+
 /// SI value of a text such as `25 um` or `0.2J/m²`; the space before the unit is optional.
 ///
 /// The value is the double nearest to the written decimal: `25 um` is `25e-6` to the last bit. A

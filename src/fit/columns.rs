@@ -4,7 +4,7 @@ use std::path::Path;
 
 use super::curve_file::name;
 use super::error::FitError;
-use crate::units::{Dimension, quoted, unit_factor};
+use crate::units::{Dimension, name_and_unit, quoted, unit_factor};
 
 /// What a column of a force curve holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -341,16 +341,6 @@ impl Column {
                 text: quoted(text),
             })
     }
-}
-
-/// `force [nN]` or `force (nN)` as name and unit.
-fn name_and_unit(text: &str) -> (&str, Option<&str>) {
-    for (open, close) in [('[', ']'), ('(', ')')] {
-        if let Some((name, rest)) = text.split_once(open) {
-            return (name.trim(), Some(rest.trim_end().trim_end_matches(close)));
-        }
-    }
-    (text, None)
 }
 
 /// A number, with a decimal comma if commas do not separate.

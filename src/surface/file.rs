@@ -191,15 +191,28 @@ pub(super) fn heights_of(
     let [factor, zero] = factor_and_zero(&matrix, scene, unit)?;
     let mut heights = matrix.values;
     let mut warnings = matrix.warnings;
+    if let Some(unit) = matrix.lateral_unit {
+        warnings.push(format!(
+            "the file gives {unit:e} m as the unit of x, which only points x y z and a profile (profile = true) have"
+        ));
+    }
     fill_missing(&mut heights, share, scene.fill, boundary, &mut warnings)?;
 
     let is_periodic = boundary == Boundary::Periodic;
     if let Some(times) = asked.outliers {
         let found = prepare::remove_outliers(&mut heights, share, times, is_periodic)?;
-        if found > 0 {
+        let all = points[0] * points[1];
+        if found.count > 0 {
             warnings.push(format!(
-                "{found} of {} points stand out of their neighbours by more than {times} standard deviations and are interpolated",
-                points[0] * points[1]
+                "{} of {all} points stand out of their neighbours by more than {times} standard deviations and are interpolated",
+                found.count
+            ));
+        }
+        if found.are_few_different {
+            warnings.push(format!(
+                "most of the {all} points equal the median of their neighbours (terraces, or few levels), so that outliers = {times} is in \
+                 standard deviations of the others: more than {:.3e} m stands out",
+                times * found.deviation * factor.abs()
             ));
         }
     }
@@ -254,7 +267,9 @@ pub(super) fn heights_of(
         let from = share_of(points);
         points = [nx, if asked.profile { 1 } else { ny }];
         let to = room_for(points, share_of)?;
-        let found = if is_periodic && closes {
+        // Edges that were made to meet are those of a periodic map, whatever lies beyond them.
+        let is_closed = closes && (is_periodic || asked.edges != Edges::None);
+        let found = if is_closed {
             resample::by_waves(heights, &from, &to)
         } else {
             resample::by_cubics(&heights, &from, &to)

@@ -19,6 +19,8 @@ pub(super) struct Matrix<V = Vec<f64>> {
     pub(super) size: Option<Size>,
     /// Metres per unit of the numbers, if the file states it.
     pub(super) unit: Option<f64>,
+    /// Metres per unit of the places of a profile, if the file states it.
+    pub(super) lateral_unit: Option<f64>,
     /// Whether the numbers are shades of grey, from 0 (black) to 1 (white).
     pub(super) grey: bool,
     /// Warnings for the user.
@@ -37,6 +39,7 @@ impl<V> Matrix<V> {
             columns,
             size: None,
             unit: None,
+            lateral_unit: None,
             grey: false,
             warnings: Vec::new(),
         }
@@ -50,6 +53,7 @@ impl<V> Matrix<V> {
             columns: self.columns,
             size: self.size,
             unit: self.unit,
+            lateral_unit: self.lateral_unit,
             grey: self.grey,
             warnings: self.warnings,
         };

@@ -4,6 +4,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use super::error::FileError;
 use super::fill;
+use super::formats::UNEVEN;
 use super::matrix::{Map, Matrix, PASSED, Size};
 use crate::backend::{BackendError, Share};
 
@@ -11,8 +12,6 @@ use crate::backend::{BackendError, Share};
 const LINE: usize = 1000;
 /// or if it has two rows of at least so many points.
 const LEAST_LINE: usize = 16;
-/// Relative difference of steps of a profile up to which they are equal.
-const EQUAL: f64 = 1e-3;
 /// A window falls to zero over one part in so many of each side.
 const WINDOW: usize = 8;
 /// Standard deviation of a normal distribution over its median absolute deviation.
@@ -68,10 +67,14 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
         ));
     }
     header.size = match (length, header.size) {
-        (Some(length), _) => Some(Size::LikeHeights([length; 2])),
+        (Some(length), _) => Some(match header.lateral_unit {
+            Some(unit) => Size::Metres([length * unit; 2]),
+            None => Size::LikeHeights([length; 2]),
+        }),
         (None, Some(Size::Metres(size))) => Some(Size::Metres([size[0].max(size[1]); 2])),
         (None, size) => size,
     };
+    header.lateral_unit = None;
     (header.rows, header.columns) = (1, count);
     Ok(header.with(heights))
 }
@@ -80,8 +83,12 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
 fn length(places: &[f64]) -> Option<f64> {
     let (first, last) = (places.first()?, places.last()?);
     let step = (last - first) / (places.len() as f64 - 1.0);
-    let mut steps = places.windows(2).map(|pair| pair[1] - pair[0]);
-    let equal = step != 0.0 && steps.all(|one| (one - step).abs() <= EQUAL * step.abs());
+    let mut numbered = places.iter().enumerate();
+    // Rounding to few digits moves each place, however many steps lie before it; as of points on a grid.
+    let is_even = |(index, place): (usize, &f64)| {
+        (place - first - index as f64 * step).abs() <= UNEVEN * step.abs()
+    };
+    let equal = step != 0.0 && numbered.all(is_even);
     equal.then(|| step.abs() * places.len() as f64)
 }
 
@@ -133,7 +140,8 @@ pub(super) fn crop(matrix: &mut Matrix, crop: [usize; 4]) -> Result<(), FileErro
 }
 
 /// Interpolates points that stand out of their eight neighbours' median by more than `times` the standard deviation
-/// of such differences, estimated from their median. Returns how many; none where a process has ended.
+/// of such differences, estimated from their median, or where that is 0 from that of the others. Returns how many; none where a
+/// process has ended.
 ///
 /// # Errors
 /// More of them than several processes fill.
@@ -142,10 +150,10 @@ pub(super) fn remove_outliers(
     share: &Share,
     times: f64,
     periodic: bool,
-) -> Result<usize, FileError> {
+) -> Result<Outliers, FileError> {
     let columns = share.surface()[0];
     let Ok([before, after]) = share.surface_rows_beside(values) else {
-        return Ok(0);
+        return Ok(Outliers::default());
     };
     // The held rows between those beside them, which an edge of the map lacks.
     let around_here = [&before[..], values, &after[..]].concat();
@@ -154,17 +162,38 @@ pub(super) fn remove_outliers(
         .collect();
     drop(around_here);
     let mut sizes: Vec<f64> = differences.iter().map(|one| one.abs()).collect();
-    let deviation = NORMAL * median_of_all(&mut sizes, share);
+    let mut deviation = NORMAL * median_of_all(&mut sizes, share);
+    let are_few_different = deviation == 0.0;
+    if are_few_different {
+        // Terraces and heights of few levels: most points equal their neighbours.
+        sizes.retain(|size| *size > 0.0);
+        deviation = NORMAL * median_of_all(&mut sizes, share);
+    }
     drop(sizes);
     if deviation == 0.0 {
-        return Ok(0);
+        return Ok(Outliers::default());
     }
     for (value, difference) in values.iter_mut().zip(&differences) {
         if difference.abs() > times * deviation {
             *value = f64::NAN;
         }
     }
-    fill::interpolate(values, share, periodic)
+    Ok(Outliers {
+        count: fill::interpolate(values, share, periodic)?,
+        are_few_different,
+        deviation,
+    })
+}
+
+/// What stands out of a map.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Outliers {
+    /// Points that stood out and are interpolated.
+    pub(super) count: usize,
+    /// Whether most points equal the median of their neighbours, so that the standard deviation is that of the others.
+    pub(super) are_few_different: bool,
+    /// The standard deviation, in the unit of the numbers.
+    pub(super) deviation: f64,
 }
 
 /// The up to eight neighbours of a point.
@@ -187,8 +216,11 @@ fn median_of_all(sizes: &mut [f64], share: &Share) -> f64 {
     if share.is_whole() {
         return median(sizes);
     }
-    let [columns, rows] = share.surface();
-    let below = rows * columns / 2;
+    let [all] = share.counts([sizes.len()]);
+    if all == 0 {
+        return 0.0;
+    }
+    let below = all / 2;
     // The bits of numbers without a sign are in their order: the last number that has no more than that many below it.
     let (mut least, mut greatest) = (0, f64::INFINITY.to_bits());
     while least < greatest {
@@ -274,10 +306,8 @@ mod tests {
         let mut values = rough.clone();
         values[210] = 500.0;
         values[399] = -300.0;
-        assert_eq!(
-            remove_outliers(&mut values, &all(20, 20), 8.0, false).unwrap(),
-            2
-        );
+        let found = remove_outliers(&mut values, &all(20, 20), 8.0, false).unwrap();
+        assert_eq!((found.count, found.are_few_different), (2, false));
         for (index, (value, before)) in values.iter().zip(&rough).enumerate() {
             if index == 210 || index == 399 {
                 assert!((0.0..=10.0).contains(value), "{index}: {value}");
@@ -287,10 +317,26 @@ mod tests {
         }
         let mut flat = vec![1.0; 9];
         flat[4] = 2.0;
+        let found = remove_outliers(&mut flat, &all(3, 3), 5.0, false).unwrap();
+        assert_eq!((found.count, found.are_few_different), (0, true));
+        // Terraces of 6 and 2 points: the difference at most edges is a step.
+        let terraces = |at: usize| f64::from(u8::from((at / 64 + at % 64) % 8 >= 6));
+        let mut values: Vec<f64> = (0..64 * 64).map(terraces).collect();
+        values[20 * 64 + 20] = 500.0;
+        let found = remove_outliers(&mut values, &all(64, 64), 6.0, false).unwrap();
         assert_eq!(
-            remove_outliers(&mut flat, &all(3, 3), 5.0, false).unwrap(),
-            0
+            (found.count, found.are_few_different, found.deviation),
+            (1, true, NORMAL)
         );
+        for (at, value) in values.iter().enumerate() {
+            match at == 20 * 64 + 20 {
+                true => assert!((0.0..=1.0).contains(value), "{value}"),
+                false => assert_eq!(*value, terraces(at)),
+            }
+        }
+        let mut level = vec![1.0; 9];
+        let found = remove_outliers(&mut level, &all(3, 3), 5.0, false).unwrap();
+        assert_eq!(found, Outliers::default());
     }
 
     #[test]
@@ -339,6 +385,21 @@ mod tests {
             (uneven.values[2], uneven.size, uneven.warnings.len()),
             (9.0, None, 1)
         );
+        // Places of few digits: 1/3 is moved by 1 % of a step.
+        let rounded = profile(vec![0.0, 0.33, 0.67, 1.0, 3.0, 4.0, 6.0, 5.0], [2, 4]).unwrap();
+        assert_eq!(rounded.values, [3.0, 4.0, 6.0, 5.0]);
+        let Some(Size::LikeHeights([length, _])) = rounded.size else {
+            panic!("{:?}", rounded.size);
+        };
+        assert!((length - 4.0 / 3.0).abs() < 1e-12, "{length}");
+        // Places in their own unit.
+        let places = Matrix {
+            unit: Some(1e-9),
+            lateral_unit: Some(1e-3),
+            ..Matrix::new(vec![0.0, 3.0, 0.5, 4.0, 1.0, 6.0], [3, 2])
+        };
+        let found = to_profile(places.into()).unwrap();
+        assert_eq!(found.size, Some(Size::Metres([1.5 * 1e-3; 2])));
         // More lines, and more rows than are read at once.
         let many = (0..3 * PASSED).map(|at| at as f64).collect();
         let first = profile(many, [PASSED, 3]).unwrap();

@@ -302,6 +302,48 @@ fn a_line_scan_is_refused_or_taken_as_a_profile() {
         [40.0, 1.0]
     );
     close(quantity(&found, "rms_height"), 1e-8 / 2_f64.sqrt(), 1e-5);
+    // Places may have a unit of their own, and few digits: 1/3 um, rounded by up to 1 % of a step.
+    let lines: String = (0..40)
+        .map(|at| format!("{:.2} {:e}\n", at as f64 / 3.0, height(at)))
+        .collect();
+    fs::write(
+        folder.join("rounded.txt"),
+        format!("# Lateral units: um\n{lines}"),
+    )
+    .unwrap();
+    let found = report(
+        folder,
+        &[
+            "surface",
+            "rounded.txt",
+            "--profile",
+            "--boundary",
+            "periodic",
+        ],
+    );
+    close(quantity(&found, "size_x"), 40e-6 / 3.0, 1e-3);
+    close(quantity(&found, "rms_height"), 1e-8 / 2_f64.sqrt(), 1e-5);
+    // On terraces few heights differ from their neighbours.
+    let terraces = |at: usize| if at == 84 { 500 } else { at / 64 % 2 };
+    let lines: Vec<String> = (0..256)
+        .map(|at| terraces(at).to_string() + if at % 16 == 15 { "\n" } else { " " })
+        .collect();
+    fs::write(folder.join("terraces.txt"), lines.concat()).unwrap();
+    let output = tabor(
+        folder,
+        &[
+            "surface",
+            "terraces.txt",
+            "--size",
+            "1 um",
+            "--unit",
+            "nm",
+            "--outliers",
+            "6",
+        ],
+    );
+    let part = "most of the 256 points equal the median of their neighbours";
+    assert!(errors(&output).contains(part), "{}", errors(&output));
     // In a scene the key is named, and the profile repeats across.
     let scene = |keys: &str| {
         format!(
@@ -456,6 +498,12 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
     );
     report(folder, &[&call[..], &["--edges", "window"]].concat());
     assert!(written(&out).1[0].abs() < 0.1 * height(0, 0).abs());
+    // Edges that were made to meet are those of a periodic map: the scene that is written is periodic.
+    let closed = [&call[..], &["--edges", "window", "--resample", "64, 48"]].concat();
+    report(folder, &closed);
+    let (_, free) = written(&out);
+    report(folder, &[&closed[..], &["--boundary", "periodic"]].concat());
+    assert_eq!(free, written(&out).1);
     // A spike goes, with a word about it.
     matrix(folder, "spiked.txt", [24, 32], |y, x| {
         height(y, x) + if [y, x] == [5, 9] { 1e-6 } else { 0.0 }

@@ -5,6 +5,7 @@
 
 mod al3d;
 mod bytes;
+mod fields;
 mod gsf;
 mod gwy;
 mod ibw;
@@ -51,6 +52,7 @@ pub(super) use bytes::Opening;
 pub(super) use numbers::Numbers;
 #[cfg(not(feature = "images"))]
 use without_images::{png, tiff, x3p};
+pub(super) use xyz::UNEVEN;
 
 /// Longest file of most formats, 16 GiB: the largest grid in doubles, twice.
 const LONGEST: u64 = 1 << 34;

@@ -1,17 +1,18 @@
-//! Lengths that the comments of a text state, in the form of Gwyddion's text export.
+//! Lengths that the comments of a text state, in the form of Gwyddion's text export, and the units in the heads of its columns.
 
 use super::length::length_unit;
-use crate::units::{Dimension, parse_quantity};
+use crate::units::{Dimension, name_and_unit, parse_quantity};
 
 /// What comments say.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Default)]
 pub(super) struct Remarks {
     width: Option<f64>,
     height: Option<f64>,
     /// Metres per unit of the numbers.
     pub unit: Option<f64>,
     /// Metres per unit of x and y of points with coordinates.
-    pub lateral_unit: Option<f64>,
+    lateral_unit: Option<f64>,
+    heads: Heads,
     /// The values of the last three comments of the form `name: value`, as a length and as a unit.
     last: [(Option<f64>, Option<f64>); 3],
 }
@@ -20,6 +21,64 @@ impl Remarks {
     /// Width and height, if both are stated.
     pub fn size(&self) -> Option<[f64; 2]> {
         Some([self.width?, self.height?])
+    }
+
+    /// Reads the heads of the columns, `x [um], y [um], z [nm]`.
+    pub fn take_heads(&mut self, line: &str) {
+        self.heads = Heads {
+            units: units(line),
+            is_comment: false,
+            are_points: are_points(line),
+        };
+    }
+
+    /// Reads a comment above the numbers, which may hold these heads.
+    pub fn take_comment_above(&mut self, comment: &str) {
+        let units = units(comment);
+        if !units.is_empty() {
+            self.heads = Heads {
+                units,
+                is_comment: true,
+                are_points: false,
+            };
+        }
+    }
+
+    /// Whether the heads name x and y, so that the columns hold points.
+    pub fn names_points(&self) -> bool {
+        self.heads.are_points
+    }
+
+    /// The units in the heads of so many columns, if each has one.
+    fn column_units(&self, columns: usize) -> Option<&[f64]> {
+        Some(&self.heads.units[..]).filter(|units| units.len() == columns)
+    }
+
+    /// Metres per unit of the numbers in so many columns; of a profile or points those of the last.
+    pub fn number_unit(&self, columns: usize, has_places: bool) -> Option<f64> {
+        let of_heads = self.column_units(columns).and_then(|units| {
+            let (last, others) = units.split_last()?;
+            let is_last = has_places || others.iter().all(|unit| unit == last);
+            is_last.then_some(*last)
+        });
+        self.unit.or(of_heads)
+    }
+
+    /// Metres per unit of x and y of a profile or points in so many columns.
+    pub fn lateral_units(&self, columns: usize) -> Option<[f64; 2]> {
+        let of_heads = match self.column_units(columns) {
+            Some([x, _]) => Some([*x; 2]),
+            Some([x, y, _]) => Some([*x, *y]),
+            _ => None,
+        };
+        self.lateral_unit.map(|unit| [unit; 2]).or(of_heads)
+    }
+
+    /// Whether the heads give units of which none is that of the numbers.
+    pub fn leaves_units(&self, columns: usize, has_places: bool) -> bool {
+        let is_head = !self.heads.is_comment || self.column_units(columns).is_some();
+        let is_used = self.number_unit(columns, has_places).is_some();
+        is_head && !self.heads.units.is_empty() && !is_used
     }
 
     /// Reads a comment: `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um`.
@@ -51,6 +110,36 @@ impl Remarks {
             self.unit = Some(unit);
         }
     }
+}
+
+/// What the heads of columns say.
+#[derive(Clone, Default)]
+struct Heads {
+    /// Metres in the units of length.
+    units: Vec<f64>,
+    is_comment: bool,
+    /// Whether the first two columns are named x and y.
+    are_points: bool,
+}
+
+/// Metres in the units of length of a line of heads, each of which ends with its unit in brackets.
+fn units(line: &str) -> Vec<f64> {
+    line.split_inclusive([']', ')'])
+        .filter_map(|head| length_unit(name_and_unit(head).1?))
+        .collect()
+}
+
+/// Whether the first two of the heads in a line are x and y.
+fn are_points(line: &str) -> bool {
+    let mut names = line
+        .split([' ', '\t', ',', ';', '"'])
+        .filter(|word| !word.is_empty() && !word.starts_with(['[', '(']));
+    let mut is = |axis: char| {
+        let name = names.next().unwrap_or_default().to_ascii_lowercase();
+        name.strip_prefix(axis)
+            .is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+    };
+    is('x') && is('y')
 }
 
 /// A positive length with its unit, m.

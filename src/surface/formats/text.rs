@@ -7,13 +7,13 @@
 
 use std::borrow::Borrow;
 use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
-use std::ops::Range;
 
 use super::bytes::{Bytes, Opening};
+use super::fields::{Marks, Separator, content, fields, is_words, number, split_comment};
 use super::lines::Lines;
 use super::numbers::{NumberRows, Numbers};
 use super::remarks::Remarks;
-use super::xyz::{self, NoGrid};
+use super::xyz::{self, NoGrid, Points};
 use crate::surface::MOST_POINTS;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
@@ -21,19 +21,12 @@ use crate::surface::matrix::{Map, Matrix, Size};
 /// Bytes that tell the rows of a text at a glance.
 const BEGINNING: usize = 1 << 20;
 
+/// Warns of heads whose units are not used.
+pub(super) const UNITS_LEFT: &str = "its header gives units that are not used: give each column one in brackets, all the same, or x [um], y [um], z [nm] for points, \
+     x [um], z [nm] for a profile; unit is that of the numbers";
+
 /// What some programs begin a text in UTF-8 with.
 const MARK: &[u8] = b"\xEF\xBB\xBF";
-
-/// Separator of the numbers in a line.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Separator {
-    Semicolon,
-    Comma,
-    /// Single tabs, so that an empty field is a missing pixel.
-    Tab,
-    /// Any run of blanks and tabs.
-    Blanks,
-}
 
 /// A line with numbers.
 struct Line<'a> {
@@ -51,12 +44,18 @@ struct Line<'a> {
 /// column from 1. All are found before the first row is given.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let opening = file.opening();
-    let (text, matrix) = open(file)?;
+    let (text, mut matrix) = open(file)?;
     // A size in the comments means that this is a matrix of heights.
-    if matrix.size.is_none()
-        && let Some(map) = xyz::as_grid(&text, &matrix, opening)?
-    {
-        return Ok(map);
+    if matrix.size.is_none() {
+        match xyz::as_grid(&text, &matrix, opening)? {
+            Points::Grid(map) => return Ok(map),
+            Points::Unlikely => {}
+            Points::Likely(warning) => matrix.warnings.push(warning),
+        }
+    }
+    let columns = matrix.columns;
+    if text.remarks.leaves_units(columns, columns == 2) {
+        matrix.warnings.push(UNITS_LEFT.to_owned());
     }
     if opening == Opening::Whole {
         return Ok(matrix.into());
@@ -151,13 +150,18 @@ impl Text {
         let mut lines = Lines::new(&self.file, self.line_end);
         while lines.advance()? {
             let line = lines.line();
-            self.remarks.take_comment(split_comment(line).1);
+            let comment = split_comment(line).1;
+            self.remarks.take_comment(comment);
+            if is_first {
+                self.remarks.take_comment_above(comment);
+            }
             let content = &line[content(line)];
             if content.trim().is_empty() {
                 continue;
             }
             if is_first && is_words(content) {
                 self.header = lines.number();
+                self.remarks.take_heads(content);
             } else {
                 marks.take(content);
             }
@@ -215,7 +219,13 @@ impl Text {
         }
         Ok(Matrix {
             size: self.remarks.size().map(Size::Metres),
-            unit: self.remarks.unit,
+            // Of three columns that is not known before they form points.
+            unit: self.remarks.number_unit(columns, columns == 2),
+            lateral_unit: self
+                .remarks
+                .lateral_units(columns)
+                .filter(|_| columns == 2 || rows == 2)
+                .map(|[x, _]| x),
             ..Matrix::new(values, [rows, columns])
         })
     }
@@ -250,9 +260,9 @@ impl Text {
         Ok(())
     }
 
-    /// Metres per unit of x and y of points, if its comments state it.
-    pub(super) fn lateral_unit(&self) -> Option<f64> {
-        self.remarks.lateral_unit
+    /// What its comments and the heads of its columns say.
+    pub(super) fn remarks(&self) -> &Remarks {
+        &self.remarks
     }
 
     /// The numbers of a line, which is that of a row, at most so many.
@@ -347,100 +357,6 @@ impl<T: Borrow<Text>> NumberRows for TextRows<T> {
     }
 }
 
-/// Where the content of a line is. Tabs stay: they may separate missing numbers.
-fn content(line: &str) -> Range<usize> {
-    let blanks = [' ', '\r', '\u{c}'];
-    let text = split_comment(line).0.trim_end_matches(blanks);
-    text.len() - text.trim_start_matches(blanks).len()..text.len()
-}
-
-/// A line's content and its comment.
-fn split_comment(line: &str) -> (&str, &str) {
-    let start = [line.find('#'), line.find('%'), line.find("//")];
-    match start.into_iter().flatten().min() {
-        Some(start) => line.split_at(start),
-        None => (line, ""),
-    }
-}
-
-/// Whether a line consists of words, none of them a number.
-fn is_words(line: &str) -> bool {
-    line.split([' ', '\t', ',', ';'])
-        .filter(|word| !word.is_empty())
-        .all(|word| number(word, Separator::Blanks).is_none())
-}
-
-/// What separates words in the lines of a file.
-struct Marks {
-    semicolons: bool,
-    commas: bool,
-    tabs: bool,
-    blanks: bool,
-    /// Whether a line has several words.
-    several: bool,
-    /// Whether all commas are decimal marks.
-    decimal_commas: bool,
-}
-
-impl Default for Marks {
-    fn default() -> Self {
-        Marks {
-            semicolons: false,
-            commas: false,
-            tabs: false,
-            blanks: false,
-            several: false,
-            decimal_commas: true,
-        }
-    }
-}
-
-impl Marks {
-    fn take(&mut self, line: &str) {
-        let comma = line.contains(',');
-        self.semicolons |= line.contains(';');
-        self.commas |= comma;
-        self.tabs |= line.contains('\t');
-        self.blanks |= line.contains(' ');
-        self.several |= line.split_whitespace().nth(1).is_some();
-        self.decimal_commas &= !comma || line.split_whitespace().all(has_decimal_comma);
-    }
-
-    /// The separator of the file: the first of semicolon, comma, tab, blanks that it uses.
-    fn separator(&self) -> Separator {
-        if self.semicolons {
-            Separator::Semicolon
-        } else if self.commas && !(self.several && self.decimal_commas) {
-            // A single `1,5` on each line is taken as two numbers.
-            Separator::Comma
-        } else if self.tabs && !self.blanks {
-            Separator::Tab
-        } else {
-            Separator::Blanks
-        }
-    }
-}
-
-/// Whether a word has no comma, or exactly one, between digits, as a decimal mark.
-fn has_decimal_comma(word: &str) -> bool {
-    word.split_once(',').is_none_or(|(whole, fraction)| {
-        whole.ends_with(|c: char| c.is_ascii_digit())
-            && fraction.starts_with(|c: char| c.is_ascii_digit())
-            && !fraction.contains([',', '.'])
-            && !whole.contains('.')
-    })
-}
-
-/// The fields of a line.
-fn fields(text: &str, separator: Separator) -> Box<dyn Iterator<Item = &str> + '_> {
-    match separator {
-        Separator::Semicolon => Box::new(text.split(';')),
-        Separator::Comma => Box::new(text.split(',')),
-        Separator::Tab => Box::new(text.split('\t')),
-        Separator::Blanks => Box::new(text.split_ascii_whitespace()),
-    }
-}
-
 /// Empty fields at the ends of every line: trailing separators, not missing pixels.
 #[derive(Clone, Copy, Default)]
 struct Margins {
@@ -468,35 +384,6 @@ fn margins(text: &Text) -> Result<Margins, FileError> {
         before: usize::from(before && fewest > 1 + usize::from(after)),
         after: usize::from(after),
     })
-}
-
-/// The number in a field; NaN if it is missing, `None` if it is not a number.
-fn number(field: &str, separator: Separator) -> Option<f64> {
-    let field = field.trim();
-    let field = field
-        .strip_prefix('"')
-        .and_then(|field| field.strip_suffix('"'))
-        .unwrap_or(field)
-        .trim();
-    if let Ok(value) = field.parse() {
-        return Some(value);
-    }
-    if field.is_empty()
-        || ["na", "n/a"]
-            .iter()
-            .any(|mark| field.eq_ignore_ascii_case(mark))
-    {
-        return Some(f64::NAN);
-    }
-    // A decimal comma, where commas do not separate; Fortran's exponent mark.
-    let mut other: String = field
-        .chars()
-        .map(|c| if matches!(c, 'd' | 'D') { 'e' } else { c })
-        .collect();
-    if separator != Separator::Comma && !other.contains('.') {
-        other = other.replacen(',', ".", 1);
-    }
-    other.parse().ok()
 }
 
 #[cfg(test)]

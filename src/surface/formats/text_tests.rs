@@ -92,6 +92,73 @@ fn missing_pixels_are_not_numbers() {
 }
 
 #[test]
+fn what_other_programs_write_for_no_number_is_missing() {
+    for mark in [
+        "1.#QNAN",
+        "-1.#IND00",
+        "1.#INF",
+        "1.#J",
+        "-1.#R",
+        "#N/A",
+        "#N/A N/A",
+        "#NV",
+        "#VALUE!",
+        "#WERT!",
+        "#DIV/0!",
+        "#NAME?",
+        "\"#N/A\"",
+    ] {
+        for separator in [" ", "\t", ",", ";", "; "] {
+            for place in 0..4 {
+                let mut fields = ["1", "2", "3", "4"];
+                fields[place] = mark;
+                let [a, b, c, d] = fields;
+                let text = format!("{a}{separator}{b} # a comment\n{c}{separator}{d}\n");
+                let (rows, columns, values) = numbers(&text);
+                assert_eq!((rows, columns), (2, 2), "{text:?}");
+                for (at, value) in values.iter().enumerate() {
+                    match at == place {
+                        true => assert!(!value.is_finite(), "{text:?}"),
+                        false => assert_eq!(*value, (at + 1) as f64, "{text:?}"),
+                    }
+                }
+            }
+        }
+    }
+    // With decimal commas, and one in a line.
+    let (_, columns, values) = numbers("1,5 -1,#IND\n2,5 1,#QNAN00\n");
+    assert!(columns == 2 && values[0] == 1.5 && values[1].is_nan() && values[3].is_nan());
+    let (rows, _, values) = numbers("1\n#N/A\n3\n");
+    assert!(rows == 3 && values[1].is_nan() && values[2] == 3.0);
+    assert_eq!(
+        numbers("1 2\n3 4 #1\n#N/A is none\n#VALUES\n").2,
+        [1.0, 2.0, 3.0, 4.0]
+    );
+    for text in ["1 2#3\n", "1 1.#X\n", "1 5%\n"] {
+        let error = read_map(text.as_bytes()).unwrap_err();
+        assert!(
+            error.to_string().contains("is not a number"),
+            "{text}: {error}"
+        );
+    }
+}
+
+#[test]
+fn a_first_row_of_quoted_decimal_commas_is_no_header() {
+    assert_eq!(
+        numbers("\"1,5\";\"2,5\"\n\"3\";\"4\"\n"),
+        (2, 2, vec![1.5, 2.5, 3.0, 4.0])
+    );
+    assert_eq!(
+        numbers("\"a\";\"b\"\n\"3\";\"4\"\n"),
+        (1, 2, vec![3.0, 4.0])
+    );
+    // Nor is one whose pixels are all missing.
+    let (rows, _, values) = numbers(";;\n1;2;3\n");
+    assert!(rows == 2 && values[0].is_nan() && values[5] == 3.0);
+}
+
+#[test]
 fn one_row_one_column_one_number() {
     assert_eq!(numbers("1 2 3"), (1, 3, vec![1.0, 2.0, 3.0]));
     assert_eq!(numbers("1\n2\n"), (2, 1, vec![1.0, 2.0]));
@@ -241,4 +308,96 @@ fn a_glance_sees_the_beginning() {
     ));
     assert!(matches!(opened.unwrap().values, Numbers::Rows(_)));
     assert!(glance(&format!("# Width: 1 um\n# Height: 1 um\n{points}")).is_ok());
+}
+
+/// Units in the heads of columns, one for each.
+#[test]
+fn heads_of_columns_state_units() {
+    let points = "0,0,1\n1,0,2\n0,1,3\n1,1,4\n";
+    for head in [
+        "x [um],y [um],z [nm]",
+        "x (um), y (um), z (nm)",
+        "\"X [\u{b5}m]\",\"Y [\u{b5}m]\",\"Height [nm]\"",
+        "# x [um], y [um], z [nm]",
+    ] {
+        let map = read_map(format!("{head}\n{points}").as_bytes()).unwrap();
+        assert_eq!(map.size, Some(Size::Metres([2.0 * 1e-6; 2])), "{head}");
+        assert_eq!((map.unit, map.warnings.len()), (Some(1e-9), 0), "{head}");
+        let blanks = format!("{head}\n{points}").replace(',', " ");
+        let map = read_map(blanks.as_bytes()).unwrap();
+        assert_eq!(map.unit, Some(1e-9), "{blanks}");
+    }
+    let map = read_map(format!("x [um],y [mm],z [nm]\n{points}").as_bytes()).unwrap();
+    assert_eq!(map.size, Some(Size::Metres([2.0 * 1e-6, 2.0 * 1e-3])));
+    // A comment in Gwyddion's form is more definite.
+    let named = format!("# Value units: pm\nx [um],y [um],z [nm]\n{points}");
+    assert_eq!(read_map(named.as_bytes()).unwrap().unit, Some(1e-12));
+    // Of heights all must be in the same.
+    let map = read_map(b"a [nm];b [nm]\n1;2\n").unwrap();
+    assert_eq!((map.unit, map.warnings.len()), (Some(1e-9), 0));
+    // Of a profile the first is that of its places.
+    let map = read_map(b"x [mm];z [nm]\n0;2\n1;3\n2;4\n").unwrap();
+    assert_eq!((map.unit, map.lateral_unit), (Some(1e-9), Some(1e-3)));
+    let map = read_map(b"# Lateral units: mm\n0 2\n1 3\n2 4\n").unwrap();
+    assert_eq!((map.unit, map.lateral_unit), (None, Some(1e-3)));
+    for head in ["height (nm)", "x [um], y [um], z", "x [um], y [um], z [V]"] {
+        let map = read_map(format!("{head}\n{points}").as_bytes()).unwrap();
+        assert_eq!((map.unit, map.warnings.len()), (None, 1), "{head}");
+        assert!(map.warnings[0].contains("its header gives units"));
+    }
+}
+
+/// Points that form no grid are refused where they are surely points, and else warned of.
+#[test]
+fn points_without_a_grid_are_told() {
+    let scattered = |head: &str, fourth: &str| {
+        let points =
+            (0..30).map(|at| format!("{},{},{at}{fourth}\n", at * at % 31, at * at * at % 37));
+        head.to_owned() + &points.collect::<String>()
+    };
+    for (text, what) in [
+        (scattered("x,y,z\n", ""), "do not form a grid: x: "),
+        (
+            scattered("X [um], Y [um], height\n", ""),
+            "do not form a grid",
+        ),
+        (
+            scattered("x,y,z,quality\n", ",1"),
+            "its lines have 4 numbers",
+        ),
+    ] {
+        let error = read_map(text.as_bytes()).unwrap_err().to_string();
+        assert!(error.contains(what), "{error}");
+    }
+    for (text, what) in [
+        (
+            scattered("", ""),
+            "if they are points x y z, they form no grid: x: ",
+        ),
+        (
+            scattered("", ",1"),
+            "they form no grid: its lines have 4 numbers",
+        ),
+    ] {
+        let map = read_map(text.as_bytes()).unwrap();
+        assert!(map.warnings[0].contains(what), "{:?}", map.warnings);
+    }
+    // One point twice.
+    let mut grid: String = (0..20)
+        .map(|at| format!("{} {} {at}\n", at % 5, at / 5))
+        .collect();
+    assert_eq!(read_map(grid.as_bytes()).unwrap().columns, 5);
+    grid += "3 2 17\n";
+    let error = read_map(grid.as_bytes()).unwrap_err().to_string();
+    assert!(
+        error.contains("row 21 lies at x = 3, y = 2, as a row above"),
+        "{error}"
+    );
+    // A few rows of three heights.
+    assert!(
+        read_map(b"0 0 1\n1 0 2\n0 7 3\n1 1 4\n")
+            .unwrap()
+            .warnings
+            .is_empty()
+    );
 }

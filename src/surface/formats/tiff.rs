@@ -15,6 +15,7 @@ use super::png::{first_line, not_grey, refuse_ratio};
 use super::tiff_streams::Streams;
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix};
+use crate::units::quoted;
 
 /// First bytes of a file: both byte orders, and files beyond 4 GiB.
 pub(super) const MAGIC: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
@@ -58,7 +59,9 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
     if is_float != (bits > 16) {
         return Err(not_grey());
     }
+    refuse_unread(&mut image, is_float)?;
     let mut warnings = Vec::new();
+    let missing = missing_number(&mut image, bits, &mut warnings)?;
     if image.more_images() {
         warnings.push("the file holds several images; the first is read".to_owned());
     }
@@ -89,6 +92,13 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
             }
         }
     };
+    let numbers = match missing {
+        None => numbers,
+        Some(missing) => Numbers::Rows(Box::new(WithoutMissing {
+            rows: numbers.into_rows(),
+            missing,
+        })),
+    };
     Ok(Matrix {
         grey: !is_float,
         warnings,
@@ -97,6 +107,81 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
 }
 
 type Image = Decoder<BufReader<Stream>>;
+
+/// The orientation of an image whose first row is at the top and whose first column is on the left; 0 is none that is defined, and is
+/// taken for it.
+const UPRIGHT: u16 = 1;
+
+/// Refuses what would change heights, or their places, and is not read.
+fn refuse_unread(image: &mut Image, is_float: bool) -> Result<(), FileError> {
+    let orientation: Option<u16> = image.find_tag_unsigned(Tag::Orientation).map_err(broken)?;
+    if orientation.is_some_and(|orientation| orientation > UPRIGHT) {
+        return Err(FileError::NotSupported {
+            what: "TIFF images that are to be turned or mirrored (tag Orientation)",
+            instead: "save it upright, with Orientation 1",
+        });
+    }
+    let shades = image.find_tag_unsigned(Tag::PhotometricInterpretation);
+    if is_float && shades.map_err(broken)? == Some(PhotometricInterpretation::WhiteIsZero.to_u16())
+    {
+        return Err(FileError::NotSupported {
+            what: "TIFF images of heights in which 0 is white",
+            instead: "save it with PhotometricInterpretation 1, BlackIsZero",
+        });
+    }
+    Ok(())
+}
+
+/// The number of missing pixels that GDAL states, as the numbers of an image of so many bits are read.
+fn missing_number(
+    image: &mut Image,
+    bits: u8,
+    warnings: &mut Vec<String>,
+) -> Result<Option<f64>, FileError> {
+    let Some(value) = image.find_tag(Tag::GdalNodata).map_err(broken)? else {
+        return Ok(None);
+    };
+    let text = value.into_string().map_err(broken)?;
+    let text = text.trim_matches(['\0', ' ']);
+    let Ok(number) = text.parse::<f64>() else {
+        warnings.push(format!(
+            "the file states {} as the number of missing pixels (GDAL_NODATA), which is no number and not used",
+            quoted(text)
+        ));
+        return Ok(None);
+    };
+    let white: f64 = match bits {
+        8 => u8::MAX.into(),
+        16 => u16::MAX.into(),
+        32 => return Ok(Some((number as f32).into())),
+        _ => return Ok(Some(number)),
+    };
+    let shades: Option<u16> = image
+        .find_tag_unsigned(Tag::PhotometricInterpretation)
+        .map_err(broken)?;
+    let is_inverted = shades == Some(PhotometricInterpretation::WhiteIsZero.to_u16());
+    Ok(Some(
+        if is_inverted { white - number } else { number } / white,
+    ))
+}
+
+/// Numbers of which one value is missing.
+struct WithoutMissing {
+    rows: Box<dyn NumberRows>,
+    missing: f64,
+}
+
+impl NumberRows for WithoutMissing {
+    fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        self.rows.next(values)?;
+        for value in values {
+            if *value == self.missing {
+                *value = f64::NAN;
+            }
+        }
+        Ok(())
+    }
+}
 
 /// Where the numbers begin, if they lie in the file as they are, row after row; many programs write one strip.
 fn first_number(
@@ -293,6 +378,74 @@ mod tests {
             let (one, other) = (whole(bytes).unwrap(), streamed(bytes).unwrap());
             assert!(same(&one, &other), "{which}");
         }
+    }
+
+    /// One strip of two rows of three numbers, with these tags; not compressed.
+    fn image(bits: u16, numbers: &[u8], is_white_zero: bool, tags: &[(u16, &[u8])]) -> Vec<u8> {
+        let format = if bits > 16 { 3 } else { 1 };
+        let shades = u32::from(!is_white_zero);
+        let mut entries: Vec<(u16, u16, u32, u32)> = vec![
+            (256, 3, 1, 3),
+            (257, 3, 1, 2),
+            (258, 3, 1, bits.into()),
+            (259, 3, 1, 1),
+            (262, 3, 1, shades),
+            (273, 4, 1, 8),
+            (277, 3, 1, 1),
+            (278, 3, 1, 2),
+            (279, 4, 1, numbers.len() as u32),
+            (339, 3, 1, format),
+        ];
+        let mut bytes = [b"II*\0\0\0\0\0".as_slice(), numbers].concat();
+        for (tag, value) in tags {
+            if let [number] = value {
+                entries.push((*tag, 3, 1, (*number).into()));
+            } else {
+                // A text of more than four bytes lies elsewhere.
+                entries.push((*tag, 2, value.len() as u32, bytes.len() as u32));
+                bytes.extend(*value);
+            }
+        }
+        bytes.resize(bytes.len().next_multiple_of(2), 0);
+        entries.sort_unstable();
+        let directory = bytes.len() as u32;
+        bytes[4..8].copy_from_slice(&directory.to_le_bytes());
+        bytes.extend((entries.len() as u16).to_le_bytes());
+        for (tag, kind, count, value) in entries {
+            bytes.extend(tag.to_le_bytes());
+            bytes.extend(u16::to_le_bytes(kind));
+            bytes.extend(count.to_le_bytes());
+            bytes.extend(value.to_le_bytes());
+        }
+        bytes.extend([0; 4]);
+        bytes
+    }
+
+    #[test]
+    fn missing_numbers_are_missing_and_what_is_not_read_is_refused() {
+        let floats: Vec<u8> = [1.0_f32, -9999.0, 3.5, 4.0, 5.0, -6.0]
+            .into_iter()
+            .flat_map(f32::to_le_bytes)
+            .collect();
+        let missing: (u16, &[u8]) = (42113, b"-9999.0\0");
+        let found = whole(&image(32, &floats, false, &[missing])).unwrap();
+        assert!(found.values[1].is_nan() && found.warnings.is_empty());
+        assert_eq!(found.values[2..], [3.5, 4.0, 5.0, -6.0]);
+        let found = whole(&image(32, &floats, false, &[(42113, b"none\0")])).unwrap();
+        assert_eq!((found.values[1], found.warnings.len()), (-9999.0, 1));
+        // Of shades too, also where 0 is white.
+        for is_white_zero in [false, true] {
+            let missing: (u16, &[u8]) = (42113, b"200\0\0");
+            let shades = [0, 51, 200, 102, 255, 1];
+            let found = whole(&image(8, &shades, is_white_zero, &[missing])).unwrap();
+            assert!(found.values[2].is_nan());
+            assert_eq!(found.values[1], if is_white_zero { 0.8 } else { 0.2 });
+        }
+        let error = whole(&image(32, &floats, true, &[])).unwrap_err();
+        assert!(error.to_string().contains("0 is white"), "{error}");
+        assert!(whole(&image(32, &floats, false, &[(274, &[1])])).is_ok());
+        let error = whole(&image(32, &floats, false, &[(274, &[4])])).unwrap_err();
+        assert!(error.to_string().contains("Orientation"), "{error}");
     }
 
     proptest! {

@@ -35,6 +35,8 @@ struct Description {
     number: Number,
     /// Name of the file of the numbers.
     numbers: String,
+    /// Name of the file that says which points are valid, if there is one.
+    valid: Option<String>,
 }
 
 /// How numbers are stored.
@@ -68,10 +70,27 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
         Number::Single => stream(4, decoded(|number| f32::from_le_bytes(number).into())),
         Number::Double => stream(8, decoded(f64::from_le_bytes)),
     };
+    let mut numbers = Numbers::Rows(Box::new(rows_of_numbers));
+    if let Some(valid) = &description.valid {
+        let bits = ZipEntry::open(&file, &mut archive, valid).map_err(broken)?;
+        let expected = (rows * columns).div_ceil(u8::BITS as usize);
+        if bits.length() != expected as u64 {
+            return Err(broken(format!(
+                "{valid} has {} bytes; a bit for each of {rows} x {columns} points takes {expected}",
+                bits.length()
+            )));
+        }
+        let invalid = InvalidPoints {
+            bits,
+            byte: [0],
+            given: 0,
+        };
+        numbers = numbers.covered(Numbers::Rows(Box::new(invalid)), columns);
+    }
     Ok(Matrix {
         size: Some(Size::Metres([dx * columns as f64, dy * rows as f64])),
         unit: Some(description.unit),
-        ..Matrix::new(Numbers::Rows(Box::new(rows_of_numbers)), shape)
+        ..Matrix::new(numbers, shape)
     })
 }
 
@@ -105,6 +124,30 @@ impl NumberRows for StreamedRows {
                 });
             }
             (self.decode)(&self.bytes, row);
+            self.given += 1;
+        }
+        Ok(())
+    }
+}
+
+/// 1 for each point that is marked as invalid, else 0. A set bit is a valid point, the first of a byte its lowest bit, and rows
+/// follow each other within a byte.
+struct InvalidPoints {
+    bits: ZipEntry,
+    /// The byte of the last point.
+    byte: [u8; 1],
+    /// Points given so far.
+    given: usize,
+}
+
+impl NumberRows for InvalidPoints {
+    fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        for value in values {
+            let place = self.given % u8::BITS as usize;
+            if place == 0 {
+                self.bits.read_exact(&mut self.byte).map_err(broken)?;
+            }
+            *value = f64::from(1 - (self.byte[0] >> place & 1));
             self.given += 1;
         }
         Ok(())
@@ -201,5 +244,68 @@ fn describe<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Description, 
             other => return Err(wrong(format!("numbers of the unknown type {other:?}"))),
         },
         numbers: read(&["Record3", "DataLink", "PointDataLink"])?.to_owned(),
+        valid: find(&["Record3", "DataLink", "ValidPointsLink"])
+            .filter(|name| !name.is_empty())
+            .map(str::to_owned),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::{Cursor, Write};
+    use zip::write::SimpleFileOptions;
+
+    use crate::surface::formats::Opening;
+
+    /// Two rows of five points as whole numbers of 0.1 nm, with these bits of valid points.
+    fn file(valid: &[u8]) -> Vec<u8> {
+        let description = "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\"><Record1><FeatureType>SUR</FeatureType>\
+             <Axes><CX><Increment>1e-6</Increment></CX><CY><Increment>2e-6</Increment></CY>\
+             <CZ><DataType>L</DataType><Increment>1e-10</Increment></CZ></Axes></Record1><Record3>\
+             <MatrixDimension><SizeX>5</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ></MatrixDimension>\
+             <DataLink><PointDataLink>bindata/data.bin</PointDataLink>\
+             <ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink></Record3></p:ISO5436_2>";
+        let numbers: Vec<u8> = (1_i32..11).flat_map(i32::to_le_bytes).collect();
+        let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
+        for (name, bytes) in [
+            (DESCRIPTION, description.as_bytes()),
+            ("bindata/data.bin", &numbers),
+            ("bindata/valid.bin", valid),
+        ] {
+            // `Stored` needs no feature of the archive's crate.
+            let options =
+                SimpleFileOptions::default().compression_method(zip::CompressionMethod::Stored);
+            archive.start_file(name, options).unwrap();
+            archive.write_all(bytes).unwrap();
+        }
+        archive.finish().unwrap().into_inner()
+    }
+
+    fn opened(bytes: &[u8], opening: Opening) -> Result<Matrix, FileError> {
+        let source = Cursor::new(bytes.to_vec());
+        read(Bytes::new(source, bytes.len(), opening))?.read()
+    }
+
+    #[test]
+    fn points_marked_as_invalid_are_missing() {
+        // The third point of the first row, and the fifth of the second, which is the second bit of the second byte.
+        let bytes = file(&[0b1111_1011, 0b1111_1101]);
+        for opening in [Opening::Whole, Opening::ByRows] {
+            let found = opened(&bytes, opening).unwrap();
+            for (at, value) in found.values.iter().enumerate() {
+                match at {
+                    2 | 9 => assert!(value.is_nan(), "{at}: {value}"),
+                    _ => assert_eq!(*value, (at + 1) as f64),
+                }
+            }
+        }
+        let error = opened(&file(&[255; 10]), Opening::Whole).unwrap_err();
+        assert!(
+            error
+                .to_string()
+                .contains("bindata/valid.bin has 10 bytes; a bit for each of 2 x 5 points takes 2"),
+            "{error}"
+        );
+    }
 }

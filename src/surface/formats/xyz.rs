@@ -17,7 +17,10 @@ use crate::surface::matrix::{Map, Matrix, Size};
 const SAME: f64 = 1e-6;
 
 /// Largest deviation from even spacing, in steps: for numbers printed with few digits.
-const UNEVEN: f64 = 0.05;
+pub(in crate::surface) const UNEVEN: f64 = 0.05;
+
+/// Rows from which a text of three or four columns is rather points than a map so narrow.
+const NARROW: usize = 16;
 
 /// Grid points for each point in the file; with fewer points in the file it is not a grid.
 const SPARSEST: usize = 2;
@@ -26,6 +29,8 @@ const SPARSEST: usize = 2;
 pub(super) enum NoGrid {
     /// They lie otherwise.
     Otherwise(String),
+    /// They lie on a grid, but one comes twice.
+    Twice(String),
     /// They cannot be read, or not be sorted.
     Unread(FileError),
 }
@@ -47,28 +52,59 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
         ))),
     };
     map.map_err(|error| match error {
-        NoGrid::Otherwise(what) => FileError::NotAGrid { what },
+        NoGrid::Otherwise(what) | NoGrid::Twice(what) => FileError::NotAGrid { what },
         NoGrid::Unread(error) => error,
     })
 }
 
-/// The map that the lines of a text form if they are points with at least two a side; `None` for other numbers.
+/// What the lines of a text are if they may be points.
+pub(super) enum Points {
+    /// Points on a grid with at least two a side.
+    Grid(Map),
+    /// Numbers of a map that is so narrow that they may be points; a warning says so.
+    Likely(String),
+    /// Other numbers.
+    Unlikely,
+}
+
+/// The map that the lines of a text form if they are points.
 ///
 /// # Errors
-/// The points cannot be read, or not be sorted.
+/// The points cannot be read, or not be sorted; points by the names of their columns, or but for one that comes twice, that form no grid.
 pub(super) fn as_grid(
     text: &Text,
     numbers: &Matrix,
     opening: Opening,
-) -> Result<Option<Map>, FileError> {
-    if numbers.columns != 3 || numbers.rows < 4 {
-        return Ok(None);
+) -> Result<Points, FileError> {
+    let (rows, columns) = (numbers.rows, numbers.columns);
+    if !matches!(columns, 3 | 4) || rows < 4 {
+        return Ok(Points::Unlikely);
     }
-    match gridded(text, numbers, opening) {
-        Ok(map) => Ok(Some(map).filter(|map| map.rows > 1 && map.columns > 1)),
-        Err(NoGrid::Otherwise(_)) => Ok(None),
-        Err(NoGrid::Unread(error)) => Err(error),
+    let found = match columns {
+        3 => gridded(text, numbers, opening),
+        _ => Err(NoGrid::Otherwise(four_columns())),
+    };
+    let (what, are_points) = match found {
+        Ok(map) if map.rows > 1 && map.columns > 1 => return Ok(Points::Grid(map)),
+        Ok(_) => return Ok(Points::Unlikely),
+        Err(NoGrid::Unread(error)) => return Err(error),
+        Err(NoGrid::Twice(what)) => (what, rows >= NARROW),
+        Err(NoGrid::Otherwise(what)) => (what, false),
+    };
+    if are_points || text.remarks().names_points() {
+        return Err(FileError::NotAGrid { what });
     }
+    Ok(match rows >= NARROW {
+        true => Points::Likely(format!(
+            "its lines of {columns} numbers are taken as a map of {columns} x {rows} points (x, y); if they are points x y z, they form no grid: {what}"
+        )),
+        false => Points::Unlikely,
+    })
+}
+
+/// What is wrong with points of four numbers.
+fn four_columns() -> String {
+    "its lines have 4 numbers; x, y and z are expected".to_owned()
 }
 
 /// Arranges points on a grid; at a glance they are taken for a square.
@@ -94,9 +130,14 @@ fn gridded(text: &Text, points: &Matrix, opening: Opening) -> Result<Map, NoGrid
         if unordered.put(place, z)? {
             return Ok(());
         }
-        Err(NoGrid::Otherwise(format!(
-            "row {row} lies at x = {at_x}, y = {at_y}, as a row above"
-        )))
+        let what = format!("row {row} lies at x = {at_x}, y = {at_y}, as a row above");
+        // By chance few heights of a narrow map are different.
+        Err(
+            match places.is_some_and(|places| places * SPARSEST >= points.rows) {
+                true => NoGrid::Twice(what),
+                false => NoGrid::Otherwise(what),
+            },
+        )
     })?;
     // Pixels of a single line are taken as square.
     let steps = [x.step, y.step];
@@ -108,13 +149,18 @@ fn gridded(text: &Text, points: &Matrix, opening: Opening) -> Result<Map, NoGrid
         }
     };
     let sides = [step(0) * x.count as f64, step(1) * y.count as f64];
-    let size = (sides[0] > 0.0).then(|| match text.lateral_unit() {
-        Some(unit) => Size::Metres(sides.map(|side| side * unit)),
+    let size = (sides[0] > 0.0).then(|| match text.remarks().lateral_units(3) {
+        Some(units) => Size::Metres([sides[0] * units[0], sides[1] * units[1]]),
         None => Size::LikeHeights(sides),
     });
+    let warnings = match text.remarks().leaves_units(3, true) {
+        true => vec![text::UNITS_LEFT.to_owned()],
+        false => Vec::new(),
+    };
     Ok(Matrix {
         size,
-        unit: points.unit,
+        warnings,
+        unit: text.remarks().number_unit(3, true),
         ..Matrix::new(unordered.numbers(), shape)
     })
 }
