@@ -40,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         maugis_parameter: 0.6,
         approach_offset: 12e-9,
         force_offset: 0.0,
+        baseline_slope: 0.0,
     };
     let modulus = 4.0 * truth.contact_modulus / 3.0;
     let unit = (PI * truth.work_of_adhesion / modulus).powi(2) * RADIUS;

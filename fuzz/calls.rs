@@ -43,6 +43,7 @@ pub fn curve(bytes: &[u8], folder: &Path) -> bool {
     let freedom = Freedom {
         approach_offset: bit(0),
         force_offset: bit(1),
+        baseline_slope: false,
         range: bit(2).then_some(1e-9),
     };
     let path = folder.join(format!("curve-{}.csv", std::process::id()));

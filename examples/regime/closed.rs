@@ -88,6 +88,7 @@ pub fn maugis(problem: &Problem, approaches: &[f64]) -> Result<Vec<f64>, TheoryE
         maugis_parameter: 2.0 / (PI * stiffness * stiffness).cbrt(),
         approach_offset: 0.0,
         force_offset: 0.0,
+        baseline_slope: 0.0,
     };
     IndenterModel::new(Model::MaugisDugdale, 1.0).forces(&truth, approaches)
 }

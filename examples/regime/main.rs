@@ -103,6 +103,7 @@ fn row(number: usize, field: &[Point], copy: usize) -> Option<Row> {
     let freedom = Freedom {
         approach_offset: true,
         force_offset: measurement.baseline,
+        baseline_slope: false,
         range: None,
     };
     let result = fit_curve(&curve, Path::new("curve"), 1.0, freedom).ok()?;

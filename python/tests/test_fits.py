@@ -45,6 +45,19 @@ def test_all_kinds_of_curves_are_the_same(tmp_path):
     assert len({fit.work_of_adhesion for fit in fits}) == 1
 
 
+def test_columns_that_are_not_asked_for_may_hold_anything():
+    approach, force = curve(5e-9)
+    plain = tabor.fit((approach, force), radius="10 um").work_of_adhesion
+    dates = np.datetime64("2026-01-01") + np.arange(200).astype("timedelta64[s]")
+    texts = np.array(['dry, "cold"'] * 200, dtype=object)
+    beside = {"note, or none": texts, "time": dates, "approach": approach, "force": force}
+    assert tabor.fit(beside, radius="10 um").work_of_adhesion == plain
+    pandas = pytest.importorskip("pandas")
+    assert tabor.fit(pandas.DataFrame(beside), radius="10 um").work_of_adhesion == plain
+    with pytest.raises(tabor.FitError, match="time: real numbers are expected"):
+        tabor.fit(beside, radius="10 um", relaxation=True)
+
+
 def test_masked_points_are_missing():
     approach, force = curve(5e-9)
     junk = np.arange(200) % 10 == 0

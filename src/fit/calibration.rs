@@ -52,6 +52,12 @@ impl Calibration {
         let stated = &mut result.fits[result.chosen].uncertainties;
         stated.contact_modulus = result.modulus_uncertainty;
         stated.work_of_adhesion = stated.work_of_adhesion.and(result.work_uncertainty);
+        if let Some(found) = &mut result.inversion {
+            found.work_uncertainty = found.work_uncertainty.hypot(work * found.work_of_adhesion);
+            found.modulus_uncertainty = found
+                .modulus_uncertainty
+                .hypot(modulus * found.contact_modulus);
+        }
     }
 }
 

@@ -3,31 +3,30 @@
 use std::path::Path;
 
 use super::advice::Advice;
-use super::curve_file::{ForceCurve, LEAST_ROWS, name};
+use super::curve_file::{ForceCurve, name};
 use super::error::FitError;
 use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
 use super::hysteresis;
 use super::indenter::Indenter;
 use super::inversion::{Inversion, invert_curve};
 use super::law_error::{LawError, law_error};
-use super::measured::{Freedom, Measured, ReversedSigns};
+use super::measured::{Freedom, Measured};
 use super::model::{Model, Parameters};
 use super::relaxation::Relaxation;
-use super::slope::BaselineSlope;
+use super::signs::check_signs;
+use super::slope::{self, BaselineSlope};
 use crate::theory::Law;
 use crate::theory::tabor_map::{
     FORCE_DMT_LIMIT, JKR_LIMIT, LAMBDA_PER_MU_MATCHED, Regime, Sphere, regime, tabor_parameter,
 };
 use crate::units::format_si;
 
-/// A force farther away than the largest tension, relative to it, that cannot be noise or drift.
-const FAR_FORCE: f64 = 0.2;
 /// Difference of Akaike's criterion from which one model is preferred: it is then `exp(6/2) = 20`
 /// times as likely.
 pub const DECISIVE_AIC: f64 = 6.0;
 /// Fewest points without force that determine a fitted baseline.
 const ZERO_POINTS: usize = 5;
-/// Correlation of neighbouring residuals above which a model misses the curve, in addition to the
+/// Correlation of neighbouring residuals above which, of either sign, a model misses the curve, in addition to the
 /// 3/sqrt(points) that chance allows.
 pub const MISFIT_CORRELATION: f64 = 0.3;
 /// Correlation of work of adhesion and modulus above which they cannot be separated.
@@ -109,7 +108,14 @@ pub fn fit_curve(
 ) -> Result<FitResult, FitError> {
     let indenter = indenter.into();
     indenter.check()?;
-    let measured = Measured::new(curve.samples.clone(), indenter, freedom);
+    let freedom = Freedom {
+        force_offset: freedom.force_offset || freedom.baseline_slope,
+        ..freedom
+    };
+    // The slope is a number of each model; taking out about that of the data lets all that looks at the data see a level
+    // baseline.
+    let first = slope::first(&curve.samples, indenter, freedom);
+    let mut measured = Measured::new(slope::without(&curve.samples, first), indenter, freedom);
     let no_fit = || FitError::NoFit { path: name(path) };
     let mut fits: Vec<ModelFit> = indenter
         .models()
@@ -123,6 +129,17 @@ pub fn fit_curve(
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
     // If the baseline is fitted but not measured, tension may be an offset.
     let zero_known = knows_zero(&measured, &fits[chosen]);
+    let baseline_slope = if freedom.baseline_slope {
+        if !zero_known {
+            return Err(FitError::NoBaseline {
+                path: name(path),
+                points: free_points(&measured, &fits[chosen]),
+            });
+        }
+        Some(slope::level(&mut measured, &mut fits, chosen, first))
+    } else {
+        None
+    };
     if !zero_known {
         warnings.push(
             format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: do not fit the baseline if the zero of the force is known, or measure until the sphere is free"),
@@ -177,7 +194,7 @@ pub fn fit_curve(
         tabor_uncertainty: tabor_parameter.and(tabor_uncertainty),
         tabor_parameter,
         relaxation: None,
-        baseline_slope: None,
+        baseline_slope,
         advice: None,
         warnings,
     })
@@ -206,8 +223,13 @@ fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
 
 /// Whether a fit with a free baseline has points without force; true if the baseline is known.
 fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
+    !measured.freedom.force_offset || free_points(measured, fit) >= ZERO_POINTS
+}
+
+/// The number of points where no force acts.
+fn free_points(measured: &Measured, fit: &ModelFit) -> usize {
     let touch = fit.parameters.approach_offset;
-    let free = if fit.model.adheres() {
+    if fit.model.adheres() {
         fit.interacting
             .iter()
             .filter(|interacting| !**interacting)
@@ -215,65 +237,13 @@ fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
     } else {
         let separated = |approach: &&f64| **approach < touch;
         measured.approaches.iter().filter(separated).count()
-    };
-    !measured.freedom.force_offset || free >= ZERO_POINTS
+    }
 }
 
-/// Refuses a curve that fits far better with the sign of its approach, its force, or both reversed. Holds have no vote:
-/// the force of a solid that relaxes falls there, at no change of the approach.
-fn check_signs(measured: &Measured, fits: &[ModelFit], path: &Path) -> Result<(), FitError> {
-    let least_of = |fits: &[ModelFit]| {
-        let best = fits.iter().min_by(|a, b| a.aic.total_cmp(&b.aic));
-        best.cloned()
-    };
-    let Some(mut best) = least_of(fits) else {
-        return Ok(());
-    };
-    let (least, greatest) = measured.extremes();
-    let baseline = measured.baseline();
-    let pressed = greatest.force > baseline;
-    // No point farther away than the largest tension can be in compression.
-    let presses_from_afar = greatest.approach < least.approach
-        && greatest.force - baseline > FAR_FORCE * (baseline - least.force);
-    // Otherwise no model fits a curve of the wrong sign.
-    if pressed && !presses_from_afar && !misses(measured, &best) {
-        return Ok(());
-    }
-    let models = measured.indenter.models();
-    let moving = measured.without_holds();
-    if moving.samples.len() < LEAST_ROWS {
-        return Ok(());
-    }
-    if moving.samples.len() < measured.samples.len() {
-        let refitted = models.iter().filter_map(|model| fit_model(&moving, *model));
-        let Some(other) = least_of(&refitted.collect::<Vec<_>>()) else {
-            return Ok(());
-        };
-        best = other;
-    }
-    let simple = models
-        .iter()
-        .filter(|model| **model != Model::MaugisDugdale);
-    for reversed in ReversedSigns::ALL {
-        let other = moving.with_reversed(reversed);
-        let fitted = simple.clone().filter_map(|model| fit_model(&other, *model));
-        let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
-        if least < best.aic - DECISIVE_AIC {
-            let path = name(path);
-            return Err(if pressed {
-                FitError::WrongWay { path }
-            } else {
-                FitError::NoCompression { path }
-            });
-        }
-    }
-    Ok(())
-}
-
-/// Whether the residuals of a fit are correlated.
-fn misses(measured: &Measured, fit: &ModelFit) -> bool {
+/// Whether the residuals of a fit are correlated. They alternate where rows of extension and retraction are mixed.
+pub(super) fn misses(measured: &Measured, fit: &ModelFit) -> bool {
     let chance = 3.0 / (measured.samples.len() as f64).sqrt();
-    fit.autocorrelation > MISFIT_CORRELATION + chance
+    fit.autocorrelation.abs() > MISFIT_CORRELATION + chance
 }
 
 fn left_out(curve: &ForceCurve) -> Vec<String> {
@@ -466,7 +436,13 @@ fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>)
             fit.model.title()
         ));
     }
-    if misses(measured, fit) {
+    if misses(measured, fit) && fit.autocorrelation < 0.0 {
+        warnings.push(format!(
+            "the residuals of {} alternate (correlation {:.2}): rows of extension and retraction seem to be mixed, as where a table is sorted by approach; give the rows in the order of the measurement, or one direction alone",
+            fit.model.title(),
+            fit.autocorrelation,
+        ));
+    } else if misses(measured, fit) {
         warnings.push(format!(
             "the residuals of {} are correlated ({:.2}): the model deviates from the curve by {}, and the uncertainties are no more than orders of magnitude",
             fit.model.title(),

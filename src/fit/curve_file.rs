@@ -108,7 +108,9 @@ impl ForceCurve {
             .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
         let no_head = || FitError::NoHead { path: name(path) };
         let (line, head) = lines.next().ok_or_else(no_head)?;
-        let separator = [';', '\t', ','].into_iter().find(|s| head.contains(*s));
+        let separator = [';', '\t', ',']
+            .into_iter()
+            .find(|s| split(head, *s).len() > 1);
         let separator = separator.unwrap_or(if head.contains(' ') { ' ' } else { ',' });
         let names: Vec<&str> = split(head, separator);
         let is_number = |name: &&str| number(name, separator).is_some();
@@ -230,11 +232,36 @@ pub(super) fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
-/// The cells of a line.
+/// The cells of a line. A cell in quotes may hold the separator; a quote within it is doubled.
 fn split(line: &str, separator: char) -> Vec<&str> {
-    match separator {
-        ' ' => line.split_whitespace().map(unquoted).collect(),
-        _ => line.split(separator).map(unquoted).collect(),
+    if separator == ' ' {
+        return line.split_whitespace().map(unquoted).collect();
+    }
+    let mut cells = Vec::new();
+    let mut rest = line;
+    loop {
+        let begin = rest.len() - rest.trim_start_matches(' ').len();
+        let after_quotes = end_of_quotes(&rest[begin..]).map_or(0, |end| begin + end);
+        let Some(length) = rest[after_quotes..].find(separator) else {
+            cells.push(unquoted(rest));
+            return cells;
+        };
+        let (cell, next) = rest.split_at(after_quotes + length);
+        cells.push(unquoted(cell));
+        rest = &next[separator.len_utf8()..];
+    }
+}
+
+/// Where a text in quotes ends, behind its last quote; `None` if it does not begin with one, or never ends.
+fn end_of_quotes(text: &str) -> Option<usize> {
+    let inner = text.strip_prefix('"')?;
+    let mut from = 0;
+    loop {
+        let quote = from + inner[from..].find('"')?;
+        if !inner[quote + 1..].starts_with('"') {
+            return Some(quote + 2);
+        }
+        from = quote + 2;
     }
 }
 
@@ -263,6 +290,31 @@ mod tests {
         .unwrap();
         let pairs = curve.samples.iter().map(|s| (s.approach, s.force));
         pairs.take(curve.samples.len() - LEAST_ROWS).collect()
+    }
+
+    #[test]
+    fn cells_in_quotes_may_hold_separators() {
+        let text = "\"note, of; day\",approach,force\n\"a, \"\"b\"\", c\",1,2\n , 3 ,\"4\"\n\"unclosed,5,6\n";
+        assert_eq!(
+            split(text.lines().next().unwrap(), ','),
+            ["note, of; day", "approach", "force"]
+        );
+        let rows: String = text.to_owned() + &"x,7,7\n".repeat(LEAST_ROWS);
+        let curve = ForceCurve::parse(
+            rows.as_bytes(),
+            Path::new("curve.csv"),
+            &CurveColumns::default(),
+        )
+        .unwrap();
+        let pairs: Vec<(f64, f64)> = curve
+            .samples
+            .iter()
+            .map(|s| (s.approach, s.force))
+            .collect();
+        assert_eq!(pairs[..3], [(1.0, 2.0), (3.0, 4.0), (5.0, 6.0)]);
+        assert_eq!(split("\"\"", ','), [""]);
+        assert_eq!(split("\"", ','), [""]);
+        assert_eq!(split("\"a\"b,c", ','), ["a\"b", "c"]);
     }
 
     #[test]

@@ -2,14 +2,14 @@
 
 use std::f64::consts::PI;
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DVector;
 
 use super::curve_file::Sample;
+use super::deviations::{at_zero, correlations, uncertainties, variance_of};
 use super::indenter::Indenter;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
-use super::measured::Measured;
+use super::measured::{Freedom, Measured};
 use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
-use super::segments::Segment;
 use super::start::{beside_the_fold, scale_grid, starts};
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
@@ -23,6 +23,8 @@ const BEST_LAMBDAS: usize = 3;
 /// Fewest points of a segment without force if the baseline is fitted too: one or two would only
 /// fit their own noise.
 const LEAST_FREE: usize = 3;
+/// The same if its slope is fitted, too.
+const LEAST_FREE_SLOPE: usize = 5;
 /// Points of the grid of scales from which a search starts, in addition to the usual starts.
 const GRID_STARTS: usize = 3;
 /// Most moves from one basin to the next, and the share by which the next must lie lower.
@@ -56,6 +58,8 @@ pub struct Uncertainties {
     pub approach_offset: Option<f64>,
     /// Of the baseline force, N.
     pub force_offset: Option<f64>,
+    /// Of the slope of the baseline, N/m.
+    pub baseline_slope: Option<f64>,
 }
 
 /// A model with its best-fitting numbers.
@@ -178,32 +182,34 @@ impl ModelFit {
 
 /// A free number of the fit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Variable {
+pub(super) enum Variable {
     ContactModulus,
     WorkOfAdhesion,
     MaugisParameter,
     ApproachOffset,
     ForceOffset,
+    BaselineSlope,
 }
 
 impl Variable {
-    fn name(self) -> &'static str {
+    pub(super) fn name(self) -> &'static str {
         match self {
             Variable::ContactModulus => "contact_modulus",
             Variable::WorkOfAdhesion => "work_of_adhesion",
             Variable::MaugisParameter => "maugis_parameter",
             Variable::ApproachOffset => "approach_offset",
             Variable::ForceOffset => "force_offset",
+            Variable::BaselineSlope => "baseline_slope",
         }
     }
 }
 
 /// The least-squares problem of a model: variables are logarithms of positive numbers, and offsets
 /// as shares of the ranges.
-struct Search<'a> {
-    measured: &'a Measured,
-    tip: &'a IndenterModel,
-    variables: Vec<Variable>,
+pub(super) struct Search<'a> {
+    pub(super) measured: &'a Measured,
+    pub(super) tip: &'a IndenterModel,
+    pub(super) variables: Vec<Variable>,
     start: Parameters,
 }
 
@@ -222,6 +228,13 @@ impl Search<'_> {
                     found.approach_offset += value * self.unit(*variable);
                 }
                 Variable::ForceOffset => found.force_offset += value * self.unit(*variable),
+                Variable::BaselineSlope => {
+                    // About the middle of the curve: approach 0 may lie far outside, and there a small change of the
+                    // slope would be a large one of the force.
+                    let slope = value * self.unit(*variable);
+                    found.baseline_slope += slope;
+                    found.force_offset -= slope * self.measured.middle;
+                }
             }
         }
         if let Some(range) = self.measured.freedom.range {
@@ -231,20 +244,22 @@ impl Search<'_> {
     }
 
     /// Scale of a variable that is not a logarithm.
-    fn unit(&self, variable: Variable) -> f64 {
+    pub(super) fn unit(&self, variable: Variable) -> f64 {
         match variable {
             Variable::ApproachOffset => 0.1 * self.measured.approach_span,
             Variable::ForceOffset => 0.1 * self.measured.force_span,
+            Variable::BaselineSlope => 0.1 * self.measured.force_span / self.measured.approach_span,
             _ => 1.0,
         }
     }
 
-    fn interacting(&self, values: &DVector<f64>) -> Option<(Vec<f64>, f64)> {
+    /// Forces of a tip that interacts, and the numbers, which have the forces of a free one.
+    fn interacting(&self, values: &DVector<f64>) -> Option<(Vec<f64>, Parameters)> {
         let parameters = self.parameters(values);
         let forces = self.tip.forces(&parameters, &self.measured.approaches);
         let forces = forces.ok()?;
         let finite = forces.iter().all(|force| force.is_finite());
-        finite.then_some((forces, parameters.force_offset))
+        finite.then_some((forces, parameters))
     }
 
     fn residual(&self, sample: &Sample, force: f64) -> f64 {
@@ -262,15 +277,29 @@ impl Problem for Search<'_> {
         let interacting = self.interacting(values)?;
         let samples = &self.measured.samples;
         let mut choice = vec![true; samples.len()];
-        let least_free = if self.measured.freedom.force_offset {
-            LEAST_FREE
-        } else {
-            1
+        if self.tip.model == Model::Hertz && self.measured.freedom.baseline_slope {
+            // It does not jump. A transition of its own would let a tilted baseline run on through the first points in
+            // contact, and first touch would be less certain than is stated.
+            let residuals = self.pick(&interacting, &choice);
+            return Some((choice, residuals));
+        }
+        let least_free = match self.measured.freedom {
+            Freedom {
+                baseline_slope: true,
+                ..
+            } => LEAST_FREE_SLOPE,
+            Freedom {
+                force_offset: true, ..
+            } => LEAST_FREE,
+            _ => 1,
         };
         for segment in &self.measured.segments {
             let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
             // Gain from treating a point as free.
-            let gain = |i: usize| cost(i, interacting.0[i]) - cost(i, interacting.1);
+            let gain = |i: usize| {
+                let free = interacting.1.baseline(samples[i].approach);
+                cost(i, interacting.0[i]) - cost(i, free)
+            };
             let mut order: Vec<usize> = segment.points.clone().collect();
             if !segment.loading {
                 order.reverse();
@@ -296,10 +325,18 @@ impl Problem for Search<'_> {
 }
 
 impl Search<'_> {
-    fn pick(&self, (interacting, free): &(Vec<f64>, f64), choice: &[bool]) -> DVector<f64> {
+    fn pick(
+        &self,
+        (interacting, parameters): &(Vec<f64>, Parameters),
+        choice: &[bool],
+    ) -> DVector<f64> {
         let samples = &self.measured.samples;
         let each = (0..samples.len()).map(|i| {
-            let force = if choice[i] { interacting[i] } else { *free };
+            let force = if choice[i] {
+                interacting[i]
+            } else {
+                parameters.baseline(samples[i].approach)
+            };
             self.residual(&samples[i], force)
         });
         DVector::from_iterator(samples.len(), each)
@@ -332,6 +369,9 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     }
     if freedom.force_offset {
         variables.push(Variable::ForceOffset);
+    }
+    if freedom.baseline_slope {
+        variables.push(Variable::BaselineSlope);
     }
     let tip = IndenterModel::new(model, measured.indenter);
     let search_from = |start: Parameters, variables: &[Variable]| {
@@ -463,7 +503,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let degrees = points.saturating_sub(free).max(1);
     let sum = minimum.sum();
     let (autocorrelation, variance) = variance_of(&minimum.residuals, degrees, &measured.segments);
-    let covariance = covariance(&minimum.jacobian, variance);
+    let covariance = at_zero(search, covariance(&minimum.jacobian, variance));
     let span = measured.force_span;
     let interacting = search
         .choose(&minimum.variables)
@@ -492,112 +532,5 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         interacting,
         profile: Vec::new(),
         variance: variance * span * span,
-    }
-}
-
-fn uncertainties(
-    search: &Search,
-    parameters: &Parameters,
-    covariance: &DMatrix<f64>,
-) -> Uncertainties {
-    let place = |variable: Variable| search.variables.iter().position(|v| *v == variable);
-    let known = |variance: f64| (variance.is_finite()).then(|| variance.max(0.0).sqrt());
-    // Standard deviation of a linear combination of variables.
-    let of = |weights: &[(Variable, f64)]| -> Option<f64> {
-        let mut variance = 0.0;
-        for (first, a) in weights {
-            for (second, b) in weights {
-                let (i, j) = (place(*first)?, place(*second)?);
-                variance += a * b * covariance[(i, j)];
-            }
-        }
-        known(variance)
-    };
-    let alone = |variable| of(&[(variable, 1.0)]);
-    let scaled = |deviation: Option<f64>, by: Option<f64>| Some(deviation? * by?);
-    let model = search.tip.model;
-    // ln tension = ln lambda + (1/3) ln w + (2/3) ln E*, and the range is w over it.
-    use Variable::{ApproachOffset, ContactModulus, ForceOffset, MaugisParameter, WorkOfAdhesion};
-    let third = 1.0 / 3.0;
-    let lambda = parameters.maugis_parameter;
-    let bounded = lambda <= LAMBDAS.0 || lambda >= LAMBDAS.1;
-    let within = |deviation: Option<f64>| deviation.filter(|_| !bounded);
-    let tension = of(&[
-        (MaugisParameter, 1.0),
-        (WorkOfAdhesion, third),
-        (ContactModulus, 2.0 * third),
-    ]);
-    let range = of(&[
-        (MaugisParameter, -1.0),
-        (WorkOfAdhesion, 2.0 * third),
-        (ContactModulus, -2.0 * third),
-    ]);
-    let adhesive = model == Model::MaugisDugdale;
-    let peak = adhesive.then(|| {
-        let modulus = 4.0 * parameters.contact_modulus / 3.0;
-        let cube = PI * parameters.work_of_adhesion * modulus * modulus
-            / search.tip.indenter.radius().unwrap_or(f64::NAN);
-        0.5 * parameters.maugis_parameter * cube.cbrt()
-    });
-    let reach = peak.map(|peak| parameters.work_of_adhesion / peak);
-    Uncertainties {
-        contact_modulus: scaled(alone(ContactModulus), Some(parameters.contact_modulus)),
-        work_of_adhesion: scaled(alone(WorkOfAdhesion), Some(parameters.work_of_adhesion)),
-        maugis_parameter: scaled(within(alone(MaugisParameter)), Some(lambda)),
-        range: scaled(within(range), reach),
-        peak_tension: scaled(within(tension), peak),
-        approach_offset: scaled(alone(ApproachOffset), Some(search.unit(ApproachOffset))),
-        force_offset: scaled(alone(ForceOffset), Some(search.unit(ForceOffset))),
-    }
-}
-
-fn correlations(
-    variables: &[Variable],
-    covariance: &DMatrix<f64>,
-) -> Vec<(&'static str, &'static str, f64)> {
-    let mut pairs = Vec::new();
-    for i in 0..variables.len() {
-        for j in i + 1..variables.len() {
-            let product = covariance[(i, i)] * covariance[(j, j)];
-            let correlation = covariance[(i, j)] / product.sqrt();
-            if correlation.is_finite() {
-                pairs.push((variables[i].name(), variables[j].name(), correlation));
-            }
-        }
-    }
-    pairs
-}
-
-/// Correlation of neighbouring residuals, and the variance of the residuals, corrected for it.
-pub(super) fn variance_of(
-    residuals: &DVector<f64>,
-    degrees: usize,
-    segments: &[Segment],
-) -> (f64, f64) {
-    let points = residuals.len() as f64;
-    let autocorrelation = autocorrelation(residuals, segments);
-    // Correlated residuals count for fewer: n (1 - r)/(1 + r) of them are independent.
-    let noticed = autocorrelation > 2.0 / points.sqrt();
-    let repeated = if noticed {
-        ((1.0 + autocorrelation) / (1.0 - autocorrelation)).min(0.1 * points)
-    } else {
-        1.0
-    };
-    let variance = residuals.norm_squared() / degrees as f64 * repeated.max(1.0);
-    (autocorrelation, variance)
-}
-
-/// Correlation of each residual with the next one of the same segment.
-fn autocorrelation(residuals: &DVector<f64>, segments: &[Segment]) -> f64 {
-    let square = residuals.norm_squared();
-    let products: f64 = segments
-        .iter()
-        .flat_map(|segment| segment.points.clone().skip(1))
-        .map(|i| residuals[i] * residuals[i - 1])
-        .sum();
-    if square > 0.0 {
-        (products / square).clamp(-0.99, 0.99)
-    } else {
-        0.0
     }
 }

@@ -16,6 +16,8 @@ pub struct Freedom {
     pub approach_offset: bool,
     /// The baseline force is unknown.
     pub force_offset: bool,
+    /// The baseline has a slope that is unknown, and hence an unknown force.
+    pub baseline_slope: bool,
     /// Range of the attraction, m, if it is known: `w` over the tension, as in a scene.
     pub range: Option<f64>,
 }
@@ -62,6 +64,8 @@ pub struct Measured {
     pub(super) force_span: f64,
     /// Range of the approach, m.
     pub(super) approach_span: f64,
+    /// Mean approach, m.
+    pub(super) middle: f64,
 }
 
 impl Measured {
@@ -83,6 +87,8 @@ impl Measured {
             approaches: samples.iter().map(|sample| sample.approach).collect(),
             force_span: span(|sample| sample.force),
             approach_span: span(|sample| sample.approach),
+            middle: samples.iter().map(|sample| sample.approach).sum::<f64>()
+                / samples.len().max(1) as f64,
             samples,
         }
     }

@@ -14,6 +14,7 @@ mod calibration;
 mod choice;
 mod columns;
 mod curve_file;
+mod deviations;
 mod error;
 mod estimate;
 mod headline;
@@ -35,6 +36,7 @@ mod relaxation;
 mod report;
 mod request;
 mod segments;
+mod signs;
 mod slope;
 mod start;
 

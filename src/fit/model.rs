@@ -66,8 +66,17 @@ pub struct Parameters {
     pub maugis_parameter: f64,
     /// Approach at which the undeformed surfaces first touch, m.
     pub approach_offset: f64,
-    /// Baseline force, N.
+    /// Baseline force at approach 0, N.
     pub force_offset: f64,
+    /// Slope of the baseline force over approach, N/m; 0 where it is level.
+    pub baseline_slope: f64,
+}
+
+impl Parameters {
+    /// Force where nothing acts, at an approach (m, as measured), N.
+    pub fn baseline(&self, approach: f64) -> f64 {
+        self.force_offset + self.baseline_slope * approach
+    }
 }
 
 /// Force as a function of approach.
@@ -110,7 +119,7 @@ impl IndenterModel {
             work_of_adhesion,
             maugis_parameter,
             approach_offset,
-            force_offset,
+            ..
         } = *parameters;
         let force: ForceByApproach = if self.model == Model::Hertz {
             let stiffness = contact_modulus * self.indenter.stiffness();
@@ -127,7 +136,7 @@ impl IndenterModel {
         };
         approaches
             .iter()
-            .map(|approach| Ok(force_offset + force(approach - approach_offset)?))
+            .map(|approach| Ok(parameters.baseline(*approach) + force(approach - approach_offset)?))
             .collect()
     }
 

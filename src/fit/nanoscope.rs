@@ -20,6 +20,12 @@ use crate::surface::instrument_header::{
 pub(super) const MAGIC: &[u8] = NANOSCOPE_FORCE;
 /// The sections of channels.
 const CHANNELS: &str = "ciao force image list";
+/// Share of a part, and fewest points, at each of its ends that are compared.
+const END: f64 = 0.1;
+const LEAST_END: usize = 4;
+/// Times that the deflection must change more at one end than at the other, and share of its range, to be the less level one.
+const LESS_LEVEL: f64 = 3.0;
+const UNEVEN: f64 = 0.02;
 
 /// Reads the curve.
 pub(super) fn read(bytes: &[u8], path: &Path, how: &CurveColumns) -> Result<ForceCurve, FitError> {
@@ -144,17 +150,105 @@ pub(super) fn read(bytes: &[u8], path: &Path, how: &CurveColumns) -> Result<Forc
 
 /// Brings both parts into the order of time: they meet where the ramp turns. Versions store the extension in either order.
 fn turn(extension: &mut [f64], retraction: &mut [f64]) {
-    let [Some(first), Some(last)] = [extension.first(), extension.last()] else {
+    let [Some(&first), Some(&last)] = [extension.first(), extension.last()] else {
         return;
     };
-    let [Some(begin), Some(end)] = [retraction.first(), retraction.last()] else {
+    let [Some(&begin), Some(&end)] = [retraction.first(), retraction.last()] else {
         return;
     };
-    // The deflection is largest where the ramp turns; the far ends lie on the baseline.
-    if first > last {
+    let is_nearer = |a: f64, b: f64, to: f64| (a - to).abs() < (b - to).abs();
+    let (extends, retracts) = match (turns_at_end(extension), turns_at_end(retraction)) {
+        (Some(extends), Some(retracts)) => (extends, retracts),
+        (Some(extends), None) => {
+            let there = if extends { last } else { first };
+            (extends, is_nearer(end, begin, there))
+        }
+        (None, Some(retracts)) => {
+            let there = if retracts { end } else { begin };
+            (is_nearer(last, first, there), retracts)
+        }
+        // The deflection is usually largest where the ramp turns.
+        (None, None) => (last >= first, end > begin),
+    };
+    if !extends {
         extension.reverse();
     }
-    if end > begin {
+    if retracts {
         retraction.reverse();
+    }
+}
+
+/// Whether the ramp turns at the end of a part, not at its beginning: the other end lies on the baseline, which is level.
+/// `None` where neither end is clearly less level, as at the limit of the detector. The size of the deflection does not tell it: it is
+/// below the baseline where the ramp turns in net tension.
+fn turns_at_end(part: &[f64]) -> Option<bool> {
+    let count = ((END * part.len() as f64) as usize).max(LEAST_END);
+    if part.len() < 2 * count {
+        return None;
+    }
+    let (begin, end) = (change(&part[..count]), change(&part[part.len() - count..]));
+    let span = part.iter().copied().fold(f64::NEG_INFINITY, f64::max)
+        - part.iter().copied().fold(f64::INFINITY, f64::min);
+    let is_clear = |less: f64, more: f64| more > LESS_LEVEL * less && more > UNEVEN * span;
+    if is_clear(begin, end) {
+        Some(true)
+    } else {
+        is_clear(end, begin).then_some(false)
+    }
+}
+
+/// Difference of the means of both halves.
+fn change(values: &[f64]) -> f64 {
+    let (first, second) = values.split_at(values.len() / 2);
+    let mean = |half: &[f64]| half.iter().sum::<f64>() / half.len() as f64;
+    (mean(second) - mean(first)).abs()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Noise of a part in a thousand of the deflections below.
+    fn noise(index: usize) -> f64 {
+        1e-3 * ((7 * index % 11) as f64 / 11.0 - 0.5)
+    }
+
+    fn part(of: impl Fn(f64) -> f64) -> Vec<f64> {
+        let at = |index: usize| of(index as f64 / 99.0) + noise(index);
+        (0..100).map(at).collect()
+    }
+
+    fn reversed(part: &[f64]) -> Vec<f64> {
+        part.iter().rev().copied().collect()
+    }
+
+    /// The order of each part is that of time whichever way it is stored: pressed, in net tension where the ramp turns, and
+    /// at the limit of the detector.
+    #[test]
+    fn parts_are_put_in_the_order_of_time() {
+        let pressed = part(|x| 5.0 * (x - 0.7).max(0.0));
+        let limited = part(|x| (20.0 * (x - 0.7).max(0.0)).min(1.0));
+        let jumped = part(|x| {
+            if x > 0.95 {
+                -1.0 + 4.0 * (x - 0.95)
+            } else {
+                0.0
+            }
+        });
+        // After a jump at the end of the extension the retraction pulls further and lets go.
+        let released = part(|x| if x < 0.3 { -0.8 - 2.0 * x } else { 0.0 });
+        for (extension, retraction) in [
+            (pressed.clone(), reversed(&pressed)),
+            (limited.clone(), reversed(&limited)),
+            (jumped, released),
+        ] {
+            for turned in [[false, false], [true, false], [false, true], [true, true]] {
+                let [mut first, mut second] = [(&extension, turned[0]), (&retraction, turned[1])]
+                    .map(|(part, turned)| if turned { reversed(part) } else { part.clone() });
+                turn(&mut first, &mut second);
+                assert_eq!(first, extension, "{turned:?}");
+                assert_eq!(second, retraction, "{turned:?}");
+            }
+        }
     }
 }

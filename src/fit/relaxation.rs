@@ -12,8 +12,9 @@ use nalgebra::{DMatrix, DVector};
 
 use super::choice::FitResult;
 use super::curve_file::{ForceCurve, name};
+use super::deviations::variance_of;
 use super::error::FitError;
-use super::estimate::{MOST_RISE, variance_of};
+use super::estimate::MOST_RISE;
 use super::least_squares::{Problem, covariance, minimise};
 use super::segments::Segment;
 use crate::units::format_si;
@@ -36,6 +37,9 @@ const PLACES: [f64; 18] = [
 const USUAL_PLACE: f64 = 0.5;
 /// Most points of the tries.
 const TRIED_POINTS: usize = 2000;
+/// Share of itself that the uncertainty of a stated number stays below: two deviations do not reach to nothing. A modulus that
+/// runs off without bound as the time goes to 0 has an uncertainty of nearly its size.
+const KNOWN: f64 = 0.5;
 /// Step of the derivatives by the place, as a share of the depth, and by the logarithm of the time.
 const DIFFERENCE: f64 = 1e-5;
 
@@ -172,14 +176,7 @@ pub fn fit_relaxation(
             deviations[at] = deviations[at].max(away.abs());
         }
     }
-    let stated = |at: usize| {
-        let (value, deviation) = (values[at], deviations[at]);
-        if deviation < value {
-            (value, deviation)
-        } else {
-            (f64::NAN, f64::NAN)
-        }
-    };
+    let stated = |at: usize| stated(values[at], deviations[at]);
     Ok(Relaxation {
         relaxed_modulus: stated(0),
         instantaneous_modulus: stated(1),
@@ -187,6 +184,15 @@ pub fn fit_relaxation(
         noise: (residuals.norm_squared() / degrees as f64).sqrt() * loading.scale,
         points: times.len(),
     })
+}
+
+/// A number with its standard deviation; NaN where that is too large to state it.
+fn stated(value: f64, deviation: f64) -> (f64, f64) {
+    if deviation < KNOWN * value {
+        (value, deviation)
+    } else {
+        (f64::NAN, f64::NAN)
+    }
 }
 
 /// A relaxation time and a place of first touch, with the sum of squares of the best moduli, in squares of the scale.
@@ -429,5 +435,18 @@ impl Problem for Descent<'_> {
         let (_, residuals) = self.loading.solid(time, touch);
         let are_finite = residuals.iter().all(|value| value.is_finite());
         are_finite.then_some(residuals)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A modulus at once that ran off, where the truth was 3 MPa, and one that is known.
+    #[test]
+    fn a_number_that_runs_off_is_not_stated() {
+        assert!(stated(32.78e9, 32.77e9).0.is_nan() && stated(32.78e9, 32.77e9).1.is_nan());
+        assert!(stated(1.0, f64::NAN).0.is_nan());
+        assert_eq!(stated(3.1e6, 0.2e6), (3.1e6, 0.2e6));
     }
 }

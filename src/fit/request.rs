@@ -10,7 +10,6 @@ use super::error::FitError;
 use super::indenter::Indenter;
 use super::measured::Freedom;
 use super::relaxation::fit_relaxation;
-use super::slope::fit_with_slope;
 
 /// What is asked of a fit; by default the approach of first touch is fitted, and nothing else beside the models.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -47,15 +46,11 @@ impl FitRequest {
     ) -> Result<FitResult, FitError> {
         let freedom = Freedom {
             approach_offset: !self.contact_at_zero,
-            force_offset: self.baseline,
+            force_offset: self.baseline || self.baseline_slope,
+            baseline_slope: self.baseline_slope,
             range: self.range,
         };
-        let fit = if self.baseline_slope {
-            fit_with_slope
-        } else {
-            fit_curve
-        };
-        let mut result = fit(curve, path, indenter, freedom)?;
+        let mut result = fit_curve(curve, path, indenter, freedom)?;
         Calibration::new(self.radius_error, self.spring_error).widen(&mut result);
         if self.relaxation {
             result.relaxation = Some(fit_relaxation(curve, path, &result)?);

@@ -1,6 +1,6 @@
 //! Starting points of the search for a model's numbers.
 
-use nalgebra::{Matrix2, Vector2};
+use nalgebra::{Matrix3, Vector3};
 
 use super::curve_file::Sample;
 use super::measured::Measured;
@@ -81,7 +81,9 @@ pub(super) fn scale_grid(measured: &Measured, tip: &IndenterModel, lambda: f64) 
                         reduced(place).ok()
                     }
                 };
-                let Some((force_unit, force_offset)) = linear_scale(measured, force) else {
+                let Some((force_unit, force_offset, baseline_slope)) =
+                    linear_scale(measured, force)
+                else {
                     continue;
                 };
                 let (work_of_adhesion, contact_modulus) =
@@ -93,6 +95,7 @@ pub(super) fn scale_grid(measured: &Measured, tip: &IndenterModel, lambda: f64) 
                         maugis_parameter: lambda,
                         approach_offset,
                         force_offset,
+                        baseline_slope,
                     });
                 }
             }
@@ -154,23 +157,32 @@ pub(super) fn beside_the_fold(
         .collect()
 }
 
-/// Force unit and baseline that bring reduced forces closest to the measured ones; `None` if that
+/// Force unit, baseline and its slope that bring reduced forces closest to the measured ones; `None` if that
 /// unit is not positive.
-fn linear_scale(measured: &Measured, reduced: impl Fn(f64) -> Option<f64>) -> Option<(f64, f64)> {
-    let mut normal = Matrix2::zeros();
-    let mut right = Vector2::zeros();
+fn linear_scale(
+    measured: &Measured,
+    reduced: impl Fn(f64) -> Option<f64>,
+) -> Option<(f64, f64, f64)> {
+    let mut normal = Matrix3::zeros();
+    let mut right = Vector3::zeros();
+    let place = |approach: f64| (approach - measured.middle) / measured.approach_span;
     for sample in &measured.samples {
-        let row = Vector2::new(reduced(sample.approach)?, 1.0);
+        let row = Vector3::new(reduced(sample.approach)?, 1.0, place(sample.approach));
         normal += row * row.transpose();
         right += row * sample.force;
     }
-    let (unit, offset) = if measured.freedom.force_offset {
+    let (unit, offset, slope) = if measured.freedom.baseline_slope {
         let solution = normal.lu().solve(&right)?;
-        (solution[0], solution[1])
+        let slope = solution[2] / measured.approach_span;
+        (solution[0], solution[1] - slope * measured.middle, slope)
+    } else if measured.freedom.force_offset {
+        let both = normal.fixed_view::<2, 2>(0, 0).into_owned();
+        let solution = both.lu().solve(&right.fixed_rows::<2>(0).into_owned())?;
+        (solution[0], solution[1], 0.0)
     } else {
-        (right[0] / normal[(0, 0)], 0.0)
+        (right[0] / normal[(0, 0)], 0.0, 0.0)
     };
-    (unit.is_finite() && unit > 0.0).then_some((unit, offset))
+    (unit.is_finite() && unit > 0.0).then_some((unit, offset, slope))
 }
 
 /// A straight line through the approach against the force to the inverse of its power.
@@ -201,6 +213,7 @@ fn hertz_start(measured: &Measured, baseline: f64, greatest: Sample) -> Paramete
         maugis_parameter: 1.0,
         approach_offset: (y - slope * x) / n.max(1.0),
         force_offset: baseline,
+        baseline_slope: 0.0,
     }
 }
 
@@ -229,5 +242,6 @@ fn pull_off_start(
         maugis_parameter: lambda,
         approach_offset: least.approach - place * approach_unit,
         force_offset: baseline,
+        baseline_slope: 0.0,
     })
 }

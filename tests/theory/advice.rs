@@ -142,6 +142,7 @@ fn advice_is_free_of_units() {
             maugis_parameter: 0.8,
             approach_offset: 0.0,
             force_offset: 0.0,
+            baseline_slope: 0.0,
         };
         let stiffness = 4.0 / 3.0 * modulus;
         let force = std::f64::consts::PI * work * radius;
@@ -164,6 +165,7 @@ fn advice_is_free_of_units() {
         let freedom = Freedom {
             approach_offset: true,
             force_offset: false,
+            baseline_slope: false,
             range: None,
         };
         let result = fit_curve(&curve, Path::new("made"), radius, freedom).expect("a fit");

@@ -19,6 +19,7 @@ use crate::shared::random::Random;
 const FREE: Freedom = Freedom {
     approach_offset: true,
     force_offset: false,
+    baseline_slope: false,
     range: None,
 };
 
@@ -47,6 +48,7 @@ fn made(model: Model, lambda: f64, noise: f64, seed: u64) -> Vec<Sample> {
         maugis_parameter: lambda,
         approach_offset: 3e-9,
         force_offset: 0.0,
+        baseline_slope: 0.0,
     };
     let force_unit = PI * WORK * RADIUS;
     let unit = (force_unit * force_unit / (16.0 / 9.0 * MODULUS * MODULUS * RADIUS)).cbrt();
@@ -97,6 +99,7 @@ fn no_fit_of_a_folded_curve_is_worse_than_the_truth() {
         maugis_parameter: 1.0,
         approach_offset: 300e-9,
         force_offset: 0.0,
+        baseline_slope: 0.0,
     };
     let (radius, fold) = (10e-6, 89.3e-9);
     let sphere = IndenterModel::new(Model::Jkr, radius);
@@ -224,6 +227,7 @@ fn a_baseline_is_found() {
     }
     let freedom = Freedom {
         force_offset: true,
+        baseline_slope: false,
         ..FREE
     };
     let result = fitted(samples, RADIUS, freedom);

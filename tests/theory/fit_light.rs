@@ -17,6 +17,7 @@ use crate::shared::random::Random;
 const FREE: Freedom = Freedom {
     approach_offset: true,
     force_offset: false,
+    baseline_slope: false,
     range: None,
 };
 
@@ -44,6 +45,7 @@ fn made(model: Model, load: Load, share: f64, both_ways: bool, seed: u64) -> Vec
         maugis_parameter: 1.0,
         approach_offset: OFFSET,
         force_offset: 0.0,
+        baseline_slope: 0.0,
     };
     let force_unit = PI * WORK * RADIUS;
     let unit = (force_unit * force_unit / (16.0 / 9.0 * MODULUS * MODULUS * RADIUS)).cbrt();
@@ -176,6 +178,7 @@ fn turned_signs_are_told() {
 fn a_baseline_without_a_free_stretch_is_no_baseline() {
     let freedom = Freedom {
         force_offset: true,
+        baseline_slope: false,
         ..FREE
     };
     for model in [Model::Jkr, Model::Dmt] {

@@ -172,7 +172,7 @@ def fit(
                 raise FitError(f"{name}: of spheres only")
     if isinstance(columns, str) or not all(isinstance(each, str) for each in columns):
         raise FitError(f'columns: a list of texts such as ["position=Z [um]"] is expected, not {columns!r}')
-    path, text = _curve(curve)
+    path, text = _curve(curve, relaxation is not False or any(each.strip().startswith("time") for each in columns))
     how = {
         "tip": tip,
         "tip_size": _positive(size, "length" if tip == "sphere" else "angle", "radius" if tip == "sphere" else tip),
@@ -228,7 +228,13 @@ def _column(name: str, values: Any) -> npt.NDArray[Any]:
     return array
 
 
-def _curve(curve: Any) -> tuple[str, str | None]:
+def _is_no_number(values: Any) -> bool:
+    """Whether values are dates, spans of time or texts."""
+    dtype = values.dtype if hasattr(values, "dtype") else np.asarray(values).dtype
+    return dtype.kind in "mMSU"
+
+
+def _curve(curve: Any, needs_time: bool) -> tuple[str, str | None]:
     """The path of a curve, or the text of one in memory."""
     if isinstance(curve, (str, os.PathLike)):
         return os.fspath(curve), None
@@ -244,7 +250,8 @@ def _curve(curve: Any) -> tuple[str, str | None]:
         table = {str(name): curve[name] for name in curve.columns}
     else:
         raise FitError(f"curve: a file, columns or (approach, force) are expected, not {type(curve).__name__}")
-    arrays = {name: _column(name, values) for name, values in table.items()}
+    # Dates in a column that happens to be named so are not asked for; it stays, since columns may be chosen by their numbers.
+    arrays = {name: _column("" if name == "time" and not needs_time and _is_no_number(values) else name, values) for name, values in table.items()}
     if len({array.shape for array in arrays.values()}) > 1 or any(array.ndim != 1 for array in arrays.values()):
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise FitError(f"curve: columns of one length are expected, not {shapes}")

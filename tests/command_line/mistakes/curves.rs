@@ -12,6 +12,7 @@ use super::Reached;
 const FREE: Freedom = Freedom {
     approach_offset: true,
     force_offset: false,
+    baseline_slope: false,
     range: None,
 };
 
