@@ -161,7 +161,7 @@ mod tests {
         let sample = |i: u32| {
             let approach = 1e-6 * (f64::from(i) / 79.0 - 0.3);
             let hertz = 4.0 / 3.0 * 1e6 * 1e-5_f64.sqrt() * approach.max(0.0).powf(1.5);
-            let side = if i % 2 == 0 { 1.0 } else { -1.0 };
+            let side = if i.is_multiple_of(2) { 1.0 } else { -1.0 };
             Sample {
                 approach,
                 force: hertz + 1e-8 * side,
