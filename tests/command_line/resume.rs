@@ -152,7 +152,7 @@ fn an_interrupt_ends_after_the_iteration_with_everything_written() {
                 .is_some_and(|f| f > 0.0)
         );
         let report = fs::read_to_string(place.join("report.html")).expect("a report");
-        assert!(report.contains(&format!("Ended early: {done} of 8 steps are finished")));
+        assert!(report.contains(&format!("Ended early: {done} of 8 steps finished")));
         assert!(place.join("curve.png").exists());
         // The last finished step has its pictures, which go when the run goes on.
         assert!(

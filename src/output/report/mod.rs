@@ -250,8 +250,8 @@ impl Report<'_> {
     fn main_results(&self) -> Vec<(&'static str, String, String)> {
         let mut found = Vec::new();
         let area = |row: &&StepRow| row.contact_area_fraction;
-        let largest = self.rows.iter().max_by(|a, b| area(a).total_cmp(&area(b)));
-        if let Some(row) = largest {
+        let solved = self.rows.iter().filter(|row| row.has_solution());
+        if let Some(row) = solved.max_by(|a, b| area(a).total_cmp(&area(b))) {
             let note = match row.contact_area_fraction > 0.0 {
                 true => format!("of the nominal area, step {}", row.step),
                 false => "the surfaces do not touch".to_owned(),
