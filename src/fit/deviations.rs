@@ -155,7 +155,7 @@ mod tests {
 
     use crate::fit::{ForceCurve, Freedom, Sample, fit_curve};
 
-    /// Extension and retraction differ by friction and are sorted by approach: each residual is the opposite of the next.
+    /// Extension and retraction differ by the drag of a liquid and are sorted by approach: each residual is the opposite of the next.
     #[test]
     fn mixed_rows_are_no_curve() {
         let sample = |i: u32| {

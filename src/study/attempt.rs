@@ -13,8 +13,9 @@ const CLOSER: usize = 3;
 /// The tolerance of each over that of the one before.
 const CLOSER_BY: f64 = 0.01;
 
-/// Further starts of a solve that stalls.
-const FURTHER_STARTS: usize = 3;
+/// Further starts of a solve that stalls, each of which ends after some ten iterations if it stalls as well: a soft solid that has
+/// jumped from a few spots to contact around a few holes took six.
+const FURTHER_STARTS: usize = 40;
 
 /// A step to be solved, with its solver.
 pub(crate) struct Attempt<'a> {
@@ -110,11 +111,17 @@ impl Attempt<'_> {
         for _ in 0..FURTHER_STARTS {
             let is_open =
                 outcome.status == Status::Stalled && outcome.residual > settings.tolerance;
-            let is_held = matches!(load.hold, Hold::Gap(_)) || self.problem.hardness.is_some();
+            let is_held = self.problem.hardness.is_some();
             if !is_open || is_held || !self.problem.law.has_wall() {
                 break;
             }
-            let nearer = self.moved_by_points(outcome.mean_pressure)?;
+            let mut nearer = self.moved_by_points(outcome.mean_pressure)?;
+            if let Hold::Gap(held) = load.hold {
+                // As each trial of the solver keeps it.
+                let mean = self.problem.share.sum(&nearer) / self.problem.shape.len() as f64;
+                let scale = if mean > 0.0 { held / mean } else { 1.0 };
+                nearer.iter_mut().for_each(|gap| *gap *= scale);
+            }
             let left = settings.max_iterations.saturating_sub(outcome.iterations);
             let before = outcome.iterations;
             outcome = self.solve_to(settings.tolerance, left, load, &Start::Gap(nearer))?;

@@ -477,7 +477,25 @@ fn attraction_summed_over_other_codes_gaps() {
     }
 }
 
+/// A soft solid whose few spots give way to contact around a few holes, all within a small step of its mean gap. The direction of the solve
+/// descends by points that the wall stops; it goes on from where each point has moved by itself, and every step converges, down to the last that
+/// holds.
+fn a_soft_solid_is_drawn_off_through_its_jumps() {
+    for seed in [2, 6] {
+        let solved = solve_table(&format!(
+            "[grid]\npoints = 48\nsize = \"20 um\"\n[solid]\ncontact_modulus = \"1 MPa\"\n\
+             [[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_height = \"50 nm\"\nlongest = \"20 um\"\nrolloff = \"10 um\"\n\
+             shortest = \"2.5 um\"\nseed = {seed}\n\
+             [adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"300 nm\"\n\
+             [loading]\ncontrol = \"mean-gap\"\npath = [\"1 nm\"]\nuntil = \"apart\"\n"
+        ));
+        let last = solved.steps.last().expect("rows");
+        assert_eq!(last.row.state, State::Separated, "seed {seed}");
+    }
+}
+
 tests![
+    a_soft_solid_is_drawn_off_through_its_jumps,
     all_controls_agree_on_a_periodic_cell,
     all_controls_agree_on_a_free_boundary,
     a_soft_spring_through_both_jumps,
