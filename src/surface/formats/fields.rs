@@ -75,7 +75,7 @@ fn is_error_word(word: &str) -> bool {
     name == "NV" || inside.is_some_and(|name| !name.is_empty() && name.chars().all(is_capital))
 }
 
-/// What Windows' C library writes for numbers that are not finite.
+/// NaN and infinities as the C library of Windows writes them.
 const WINDOWS: [&str; 4] = ["QNAN", "SNAN", "IND", "INF"];
 
 /// First letters of these where they are rounded to fewer digits, as digits are: `1.#J` for `1.#INF`.

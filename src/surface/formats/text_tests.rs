@@ -131,7 +131,7 @@ fn what_other_programs_write_for_no_number_is_missing() {
     let (rows, _, values) = numbers("1\n#N/A\n3\n");
     assert!(rows == 3 && values[1].is_nan() && values[2] == 3.0);
     assert_eq!(
-        numbers("1 2\n3 4 #1\n#N/A is none\n#VALUES\n").2,
+        numbers("1 2\n3 4 #1\n#N/A is missing\n#VALUES\n").2,
         [1.0, 2.0, 3.0, 4.0]
     );
     for text in ["1 2#3\n", "1 1.#X\n", "1 5%\n"] {

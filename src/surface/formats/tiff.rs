@@ -108,8 +108,8 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
 
 type Image = Decoder<BufReader<Stream>>;
 
-/// The orientation of an image whose first row is at the top and whose first column is on the left; 0 is none that is defined, and is
-/// taken for it.
+/// The orientation of an image whose first row is at the top and whose first column is on the left. TIFF does not define 0, which
+/// counts as this one.
 const UPRIGHT: u16 = 1;
 
 /// Refuses what would change heights, or their places, and is not read.
