@@ -20,11 +20,6 @@ pub fn change_rows(field: &mut [f64], width: usize, of: impl Fn(usize, &mut [f64
     rows.for_each(|(row, line)| of(row, line));
 }
 
-/// How many values of a field are of a kind.
-pub fn count<T: Sync>(field: &[T], is: impl Fn(&T) -> bool + Sync) -> usize {
-    field.par_iter().filter(|value| is(value)).count()
-}
-
 /// The sum of what is counted in each of so many rows.
 pub fn count_in_rows(rows: usize, of: impl Fn(usize) -> usize + Sync) -> usize {
     (0..rows).into_par_iter().map(&of).sum()

@@ -207,15 +207,19 @@ impl Share {
         self.sums_of_rows(&of_each_row(rows, &add))
     }
 
-    /// The same where `change` makes other values of a row's part of three fields, which have so many points in a row.
-    pub fn sums_changing<P: Send, const N: usize>(
+    /// The same where `change` also makes other values of what is given of each row.
+    pub fn sums_changing<T: Send, const N: usize>(
         &self,
-        width: usize,
-        [first, second]: [&mut [f64]; 2],
-        third: &mut [P],
-        change: impl Fn(usize, [&mut [f64]; 2], &mut [P], &mut [f64; N]) + Sync,
+        rows: impl IndexedParallelIterator<Item = T>,
+        change: impl Fn(usize, T, &mut [f64; N]) + Sync,
     ) -> [f64; N] {
-        self.sums_of_rows(&changing_each_row(width, [first, second], third, &change))
+        let of_row = |(row, values)| {
+            let mut sums = [0.0; N];
+            change(row, values, &mut sums);
+            sums
+        };
+        let own: Vec<_> = rows.enumerate().map(of_row).collect();
+        self.sums_of_rows(&own)
     }
 
     /// The same of sums that are known of each row here, in the order of the rows: the same bits on any number of ranks and
@@ -362,29 +366,6 @@ fn of_each_row<const N: usize>(
         sums
     };
     (0..rows).into_par_iter().map(of_row).collect()
-}
-
-/// What changes a row's part of three fields and adds to sums.
-type Change<'a, P, const N: usize> =
-    dyn Fn(usize, [&mut [f64]; 2], &mut [P], &mut [f64; N]) + Sync + 'a;
-
-/// What `change` adds for each row.
-fn changing_each_row<P: Send, const N: usize>(
-    width: usize,
-    [first, second]: [&mut [f64]; 2],
-    third: &mut [P],
-    change: &Change<P, N>,
-) -> Vec<[f64; N]> {
-    let rows = first
-        .par_chunks_mut(width)
-        .zip(second.par_chunks_mut(width));
-    let rows = rows.zip(third.par_chunks_mut(width)).enumerate();
-    let of_row = |(row, ((first, second), third))| {
-        let mut sums = [0.0; N];
-        change(row, [first, second], third, &mut sums);
-        sums
-    };
-    rows.map(of_row).collect()
 }
 
 #[cfg(test)]

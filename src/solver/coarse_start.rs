@@ -76,10 +76,10 @@ fn refine(
     drop((start, backend));
     let height_at = coarse.heights.by_point();
     host_fields::change(&mut displacement, |point, u| *u += height_at(point));
-    let mut gap = refined(&displacement, &coarse, problem)?;
-    drop(displacement);
     let height_at = problem.heights.by_point();
-    host_fields::change(&mut gap, |point, g| *g = (*g - height_at(point)).max(0.0));
+    let gap_at = |point: usize, u: f64| (u - height_at(point)).max(0.0);
+    let mut gap = refined(&displacement, &coarse, problem, gap_at)?;
+    drop(displacement);
     if let Hold::Gap(target) = load.hold {
         let mean = problem.share.sum(&gap) / problem.shape.len() as f64;
         if mean > 0.0 {
@@ -123,14 +123,19 @@ fn solve(
     })
 }
 
-/// Values of the coarse problem's rows between those of the fine one's.
-fn refined(values: &[f64], coarse: &Problem, fine: &Problem) -> Result<Vec<f64>, BackendError> {
+/// What `of` makes of each point of the fine problem's rows and of the coarse problem's values there.
+fn refined(
+    values: &[f64],
+    coarse: &Problem,
+    fine: &Problem,
+    of: impl Fn(usize, f64) -> f64 + Sync,
+) -> Result<Vec<f64>, BackendError> {
     let points = coarse.shape.points;
     let [nx, ny] = points;
     let rows = fine.share.rows();
     if coarse.share.is_whole() {
         let line = |row: usize| &values[row * nx..(row + 1) * nx];
-        return Ok(interpolate(line, points, rows));
+        return Ok(interpolate(line, points, rows, of));
     }
     // The coarse rows around those of the fine grid, on the ring of all.
     let around = |rows: Range<usize>| -> Vec<usize> {
@@ -149,14 +154,16 @@ fn refined(values: &[f64], coarse: &Problem, fine: &Problem) -> Result<Vec<f64>,
         let place = (row + ny - first) % ny;
         &found[place * nx..(place + 1) * nx]
     };
-    Ok(interpolate(line, points, rows))
+    Ok(interpolate(line, points, rows, of))
 }
 
-/// Bilinear, between cell centres, these rows of twice the points; the grid wraps round.
+/// Bilinear, between cell centres, these rows of twice the points, of each of which `of` makes another value; the grid wraps
+/// round.
 fn interpolate<'a>(
     coarse: impl Fn(usize) -> &'a [f64] + Sync,
     [nx, ny]: [usize; 2],
     rows: Range<usize>,
+    of: impl Fn(usize, f64) -> f64 + Sync,
 ) -> Vec<f64> {
     let mut fine = vec![0.0; 2 * nx * rows.len()];
     host_fields::change_rows(&mut fine, 2 * nx, |place, line| {
@@ -176,7 +183,7 @@ fn interpolate<'a>(
             } else {
                 (column + 1) % nx
             };
-            *value = 0.75 * at(column) + 0.25 * at(other);
+            *value = of(place * 2 * nx + x, 0.75 * at(column) + 0.25 * at(other));
         }
     });
     fine

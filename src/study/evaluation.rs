@@ -6,6 +6,8 @@ use std::f64::consts::{LN_2, PI};
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
+use rayon::prelude::*;
+
 use crate::backend::{BackendError, Share, host_fields};
 use crate::grid::Boundary;
 use crate::law::{Law, Support, imbalance, net_pressure};
@@ -105,18 +107,28 @@ impl Evaluation {
         } else {
             Support::Wall
         };
-        close_pressed(setup, problem, &mut solved, &law);
         // The heights as earlier indentation has left them.
         let (height_at, depths) = (problem.padded_height(), solved.plastic_depth.unwrap_or(&[]));
         let lowered = |i: usize| height_at(i) - depths.get(i).copied().unwrap_or(0.0);
-        let [sum] = share.sums(rows, |row, [sum]| {
-            for i in row * width..(row + 1) * width {
-                *sum += solved.gap[i] + lowered(i);
-            }
-        });
+        let yields = problem.hardness.is_some();
+        let open = |g: f64| if yields { g.max(0.0) } else { g };
+        let (nx, surface_rows) = (problem.shape.surface[0], share.surface_rows().len());
+        let closing = Closing::new(setup, problem, &solved, &law);
+        let [sum, open_sum] = share.sums_changing(
+            solved.gap.par_chunks_mut(width),
+            |row, gap, [sum, open_sum]| {
+                if row < surface_rows {
+                    let points = row * width..row * width + nx;
+                    closing.close(row * nx, &mut gap[..nx], &solved.elastic[points]);
+                    gap[..nx].iter().for_each(|g| *open_sum += open(*g));
+                }
+                for (x, g) in gap.iter().enumerate() {
+                    *sum += g + lowered(row * width + x);
+                }
+            },
+        );
         let mean_displacement = sum / problem.shape.len() as f64 + solved.mean_offset;
         let count = problem.grid.len() as f64;
-        let yields = problem.hardness.is_some();
         let mut plastic_depth = match (yields, solved.plastic_depth) {
             (false, _) => Vec::new(),
             (true, None) => vec![0.0; share.surface_len()],
@@ -129,14 +141,7 @@ impl Evaluation {
         {
             *depth -= g.min(0.0);
         }
-        let open = |g: f64| if yields { g.max(0.0) } else { g };
-        let (nx, surface_rows) = (problem.shape.surface[0], share.surface_rows().len());
-        let [sum] = share.sums(surface_rows, |row, [sum]| {
-            for g in &solved.gap[row * width..row * width + nx] {
-                *sum += open(*g);
-            }
-        });
-        let mean_gap = sum / count;
+        let mean_gap = open_sum / count;
         let mean_depth = if yields {
             share.surface_sum_by(&plastic_depth, |depth| depth) / count
         } else {
@@ -161,76 +166,77 @@ impl Evaluation {
             Boundary::Periodic => (position.mean_pressure / scales.pressure, offset),
             Boundary::Free => (solved.held, offset),
         };
-        let [work] = share.sums(rows, |row, [sum]| {
-            for i in row * width..(row + 1) * width {
-                let p = solved.elastic[i];
-                *sum += (p - spring + elastic_part) * (solved.gap[i] + lowered(i) + shift);
-            }
-        });
-        let elastic_energy = 0.5 * work;
-
-        // From here on these are the results, in their own places.
-        let mut gap = problem.cut_to_surface(solved.gap);
-        let mut pressure = problem.cut_to_surface(solved.elastic);
-        let mut points = vec![PointState::Separated; gap.len()];
+        let mut points = vec![PointState::Separated; share.surface_len()];
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
         let pulling = |i: usize| match solved.law_factor {
             Some(factors) => factors[i],
             None => setup.law_factor(i),
         };
-        let evaluate = |row: usize, [gap, pressure]: [&mut [f64]; 2], points: &mut [PointState]| {
-            let mut adhesive = 0.0;
-            let values = gap.iter_mut().zip(pressure).zip(points);
-            for (x, ((gap, pressure), point)) in values.enumerate() {
-                let i = row * nx + x;
-                let g = open(*gap);
-                let closed = if negative_is_contact {
-                    g < 0.0
-                } else {
-                    g <= 0.0
-                };
-                let traction = pulling(i) * law.traction(g);
-                let support = if yields && *gap < 0.0 {
-                    Support::Indented
-                } else if closed && !negative_is_contact {
-                    closed_support
-                } else {
-                    Support::Law
-                };
-                *pressure = scales.pressure
-                    * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
-                if closed {
-                    *point = PointState::Contact;
-                } else if g < law.range() {
-                    *point = PointState::Attracted;
-                }
-                adhesive += setup.law_factor(i) * law.energy(g);
-                *gap = g * scales.length;
+        let evaluate = |i: usize, gap: &mut f64, pressure: &mut f64, point: &mut PointState| {
+            let g = open(*gap);
+            let closed = if negative_is_contact {
+                g < 0.0
+            } else {
+                g <= 0.0
+            };
+            let traction = pulling(i) * law.traction(g);
+            let support = if yields && *gap < 0.0 {
+                Support::Indented
+            } else if closed && !negative_is_contact {
+                closed_support
+            } else {
+                Support::Law
+            };
+            *pressure = scales.pressure
+                * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
+            if closed {
+                *point = PointState::Contact;
+            } else if g < law.range() {
+                *point = PointState::Attracted;
             }
-            adhesive
+            *gap = g * scales.length;
+            setup.law_factor(i) * law.energy(g)
         };
-        let fields = [&mut gap[..], &mut pressure[..]];
-        let [adhesive] =
-            share.sums_changing(nx, fields, &mut points, |row, fields, points, sum| {
-                sum[0] = evaluate(row, fields, points);
-            });
+        // The work of all solved points, then the results of those of the surface, in the places of what was solved.
+        let beyond = rows - surface_rows;
+        let points_of_rows = points.par_chunks_mut(nx).map(Some);
+        let points_of_rows = points_of_rows.chain((0..beyond).into_par_iter().map(|_| None));
+        let lines = solved
+            .gap
+            .par_chunks_mut(width)
+            .zip(solved.elastic.par_chunks_mut(width))
+            .zip(points_of_rows);
+        let [work, adhesive, force, contact, attracted] = share.sums_changing(
+            lines,
+            |row, ((gap, pressure), points), [work, adhesive, force, contact, attracted]| {
+                for (x, (g, p)) in gap.iter().zip(&*pressure).enumerate() {
+                    *work += (p - spring + elastic_part) * (g + lowered(row * width + x) + shift);
+                }
+                let values = gap.iter_mut().zip(pressure);
+                for (x, ((gap, pressure), point)) in
+                    values.zip(points.into_iter().flatten()).enumerate()
+                {
+                    *adhesive += evaluate(row * nx + x, gap, pressure, point);
+                    *force += *pressure;
+                    *contact += f64::from(*point == PointState::Contact);
+                    *attracted += f64::from(*point == PointState::Attracted);
+                }
+            },
+        );
+        let elastic_energy = 0.5 * work;
+        let force = force * problem.grid.pixel_area();
+        let gap = problem.cut_to_surface(solved.gap);
+        let pressure = problem.cut_to_surface(solved.elastic);
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
-        let of = |state: PointState| host_fields::count(&points, |&point| point == state);
-        let [touching, pulled] = setup.cut_edges.reached(&points, share);
-        let [contact, attracted, touching, pulled] = share.counts([
-            of(PointState::Contact),
-            of(PointState::Attracted),
-            touching,
-            pulled,
-        ]);
+        let [touching, pulled] = share.counts(setup.cut_edges.reached(&points, share));
         let at_cut_edge = match (touching, pulled) {
             (0, 0) => None,
             (0, _) => Some(PointState::Attracted),
             _ => Some(PointState::Contact),
         };
-        let (contact, attracted) = (contact as f64 / count, attracted as f64 / count);
+        let (contact, attracted) = (contact / count, attracted / count);
         // Out of contact.
         let strongest = || {
             let tractions = gap.iter().enumerate();
@@ -250,7 +256,6 @@ impl Evaluation {
         } else {
             None
         };
-        let force = share.surface_sum_by(&pressure, |p| p) * problem.grid.pixel_area();
         share.failed()?;
         let missed = match setup.sums_attraction() {
             true => 0.0,
@@ -312,33 +317,51 @@ impl Evaluation {
 
 /// Closes the points whose gap is worth less than their reaction: such a point may be all that the residual leaves.
 /// It is in contact. Open, it would carry the law's tension alone, and its reaction would be missing from the force.
-fn close_pressed(setup: &Setup, problem: &Problem, solved: &mut Solved, law: &Law) {
-    if !problem.law.has_wall() {
-        return;
+struct Closing<'a> {
+    setup: &'a Setup,
+    law: &'a Law,
+    /// Without a wall no point has a reaction.
+    has_wall: bool,
+    sums_attraction: bool,
+    stiffest: f64,
+    held: f64,
+    factors: Option<&'a [f64]>,
+}
+
+impl<'a> Closing<'a> {
+    fn new(setup: &'a Setup, problem: &Problem, solved: &Solved<'a>, law: &'a Law) -> Self {
+        Closing {
+            setup,
+            law,
+            has_wall: problem.law.has_wall(),
+            sums_attraction: setup.sums_attraction(),
+            stiffest: problem.stiffness_max(),
+            held: solved.held,
+            factors: solved.law_factor,
+        }
     }
-    let stiffest = problem.stiffness_max();
-    let sums_attraction = setup.sums_attraction();
-    let (width, nx) = (problem.shape.points[0], problem.shape.surface[0]);
-    let (held, factors) = (solved.held, solved.law_factor);
-    let elastic = &solved.elastic;
-    let surface = problem.share.surface_rows().len() * width;
-    host_fields::change_rows(&mut solved.gap[..surface], width, |row, gap| {
-        let elastic = &elastic[row * width..];
-        for (x, (g, elastic)) in gap[..nx].iter_mut().zip(elastic).enumerate() {
+
+    /// Those of a row of the surface, whose first point is given.
+    fn close(&self, first: usize, gap: &mut [f64], elastic: &[f64]) {
+        if !self.has_wall {
+            return;
+        }
+        for (i, (g, elastic)) in (first..).zip(gap.iter_mut().zip(elastic)) {
             if *g <= 0.0 {
                 continue;
             }
-            let i = row * nx + x;
-            let factor = factors.map_or(setup.law_factor(i), |factors| factors[i]);
-            let traction = match sums_attraction {
+            let factor = self
+                .factors
+                .map_or(self.setup.law_factor(i), |factors| factors[i]);
+            let traction = match self.sums_attraction {
                 true => 0.0,
-                false => factor * law.traction(*g),
+                false => factor * self.law.traction(*g),
             };
-            if imbalance(elastic + held, traction) > *g * stiffest {
+            if imbalance(elastic + self.held, traction) > *g * self.stiffest {
                 *g = 0.0;
             }
         }
-    });
+    }
 }
 
 /// Edges between a point in contact and a 4-neighbour that is not; they wrap on a periodic grid.
@@ -362,29 +385,40 @@ fn perimeter_edges(
         .map(|point| *point as u8)
         .collect();
     let after = share.surface_row_after(&first)?;
-    let touches = |x: usize, y: usize| points[y * nx + x] == PointState::Contact;
-    let touches_after = |x: usize| after[x] == PointState::Contact as u8;
     let edges_of_row = |y: usize| {
-        let mut edges = 0;
-        let is_followed = rows.start + y + 1 < ny || (wraps && ny > 1);
-        for x in 0..nx {
-            let here = touches(x, y);
-            if (x + 1 < nx || (wraps && nx > 1)) && here != touches((x + 1) % nx, y) {
-                edges += 1;
-            }
-            let below = || match y + 1 < rows.len() {
-                true => touches(x, y + 1),
-                false => touches_after(x),
+        let row = &points[y * nx..(y + 1) * nx];
+        let mut edges = differing(touches(row), touches(&row[1..]));
+        if wraps && nx > 1 {
+            edges += differing(touches(&row[nx - 1..]), touches(row));
+        }
+        if rows.start + y + 1 < ny || (wraps && ny > 1) {
+            edges += match y + 1 < rows.len() {
+                true => differing(touches(row), touches(&points[(y + 1) * nx..])),
+                false => differing(
+                    touches(row),
+                    after
+                        .iter()
+                        .map(|&point| point == PointState::Contact as u8),
+                ),
             };
-            if is_followed && here != below() {
-                edges += 1;
-            }
         }
         edges
     };
     let edges = host_fields::count_in_rows(rows.len(), edges_of_row);
     let [edges] = share.counts([edges]);
     Ok(edges)
+}
+
+/// Which points touch.
+fn touches(points: &[PointState]) -> impl Iterator<Item = bool> {
+    points.iter().map(|point| *point == PointState::Contact)
+}
+
+/// How many of the pairs differ.
+fn differing(some: impl Iterator<Item = bool>, others: impl Iterator<Item = bool>) -> usize {
+    some.zip(others)
+        .map(|(one, other)| usize::from(one != other))
+        .sum()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Devices: their limits, and how their failures are caught.
 
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
-use std::sync::{Arc, OnceLock};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
 
 use super::GpuBackend;
@@ -12,6 +12,7 @@ use super::level::LevelPlan;
 use super::pipelines::Pipelines;
 use super::slabs::Limits;
 use super::space;
+use super::transfer::Transfers;
 use crate::backend::Shape;
 
 /// Threads of this process that are inside a driver.
@@ -50,6 +51,7 @@ struct Inner {
     queue: wgpu::Queue,
     description: AdapterDescription,
     pipelines: Pipelines,
+    transfers: Mutex<Transfers>,
     lost: Arc<OnceLock<String>>,
     /// Whether the compiler undoes compensated sums.
     plain_sums: OnceLock<bool>,
@@ -111,6 +113,7 @@ impl GpuDevice {
                 queue,
                 description,
                 pipelines: Pipelines::default(),
+                transfers: Mutex::default(),
                 lost,
                 plain_sums: OnceLock::new(),
                 left: faults.lost_after.map(AtomicU64::new),
@@ -254,6 +257,19 @@ impl GpuDevice {
     /// Its shaders.
     pub(super) fn pipelines(&self) -> &Pipelines {
         &self.inner.pipelines
+    }
+
+    /// Calls a function with what fields pass through. The lock is not held meanwhile: all threads convert a field, and one of
+    /// them may take up other work on this device.
+    pub(super) fn transfer<R>(&self, work: impl FnOnce(&mut Transfers) -> R) -> R {
+        let held = || {
+            let held = self.inner.transfers.lock();
+            held.unwrap_or_else(PoisonError::into_inner)
+        };
+        let mut transfers = std::mem::take(&mut *held());
+        let result = work(&mut transfers);
+        *held() = transfers;
+        result
     }
 
     /// A shader compiled with the layouts of its groups.

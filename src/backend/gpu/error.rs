@@ -86,6 +86,12 @@ pub enum GpuError {
     Device(String),
 }
 
+impl From<wgpu::MapRangeError> for GpuError {
+    fn from(error: wgpu::MapRangeError) -> Self {
+        GpuError::Device(error.to_string())
+    }
+}
+
 impl From<GpuError> for BackendError {
     fn from(error: GpuError) -> Self {
         match error {

@@ -59,6 +59,30 @@ impl Number {
         }
     }
 
+    /// Writes doubles as numbers of this type to as many bytes.
+    pub fn write_bytes(self, values: &[f64], bytes: wgpu::WriteOnly<[u8]>) {
+        let (shares, rest) = bytes.into_chunks::<SHARE>();
+        let count = SHARE / self.bytes();
+        let (whole, last) = values.split_at(count * shares.len());
+        let shares: Vec<_> = shares.into_iter().zip(whole.chunks_exact(count)).collect();
+        shares
+            .into_par_iter()
+            .for_each(|(bytes, values)| self.write_share(values, bytes.into()));
+        self.write_share(last, rest);
+    }
+
+    fn write_share(self, values: &[f64], mut bytes: wgpu::WriteOnly<[u8]>) {
+        match self {
+            Number::Single => {
+                let (numbers, _) = bytes.into_chunks();
+                for (number, &value) in numbers.into_iter().zip(values) {
+                    number.write((value as f32).to_ne_bytes());
+                }
+            }
+            Number::Double => bytes.copy_from_slice(bytemuck::cast_slice(values)),
+        }
+    }
+
     /// Converts bytes of this type to as many doubles.
     pub fn read_bytes(self, bytes: &[u8], values: &mut [f64]) {
         match self {
@@ -75,6 +99,9 @@ impl Number {
         }
     }
 }
+
+/// Bytes that one thread writes at a time.
+const SHARE: usize = 1 << 17;
 
 /// The number type of sums and scalars.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -34,6 +34,7 @@ mod space;
 mod sums;
 mod timing;
 mod traffic;
+mod transfer;
 
 use std::collections::HashMap;
 

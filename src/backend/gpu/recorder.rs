@@ -8,8 +8,8 @@ use super::layout::Number;
 use super::pipelines::Pipeline;
 use super::timing::Timer;
 
-/// Bytes written or read at a time; each transfer needs a copy of them.
-const PIECE: usize = 64 << 20;
+/// Bytes from which numbers pass as a field does; the queue takes fewer as they are.
+const FIELD: usize = 1 << 18;
 /// Dispatches after which a submission is due, so that the device does not wait for the host.
 pub const DISPATCHES: usize = 256;
 
@@ -139,11 +139,8 @@ impl Recorder {
     ) -> Result<(), GpuError> {
         self.submit(&[])?;
         let queue = self.device.queue();
-        for (piece, at) in bytes.chunks(PIECE).zip((start..).step_by(PIECE)) {
-            self.device
-                .guarded(|_| queue.write_buffer(buffer, at as u64, piece))?;
-        }
-        Ok(())
+        self.device
+            .guarded(|_| queue.write_buffer(buffer, start as u64, bytes))
     }
 
     /// The same with numbers.
@@ -154,13 +151,12 @@ impl Recorder {
         values: &[f64],
         number: Number,
     ) -> Result<(), GpuError> {
-        for (piece, at) in values
-            .chunks(PIECE / number.bytes())
-            .zip((start..).step_by(PIECE))
-        {
-            number.with_bytes(piece, |bytes| self.write(buffer, at, bytes))?;
+        if number.bytes() * values.len() < FIELD {
+            return number.with_bytes(values, |bytes| self.write(buffer, start, bytes));
         }
-        Ok(())
+        self.submit(&[])?;
+        let device = &self.device;
+        device.transfer(|transfers| transfers.write(device, (buffer, start), values, number))
     }
 
     /// Sets a buffer to zero after all work recorded so far.
@@ -174,11 +170,6 @@ impl Recorder {
         })
     }
 
-    /// Waits for all work and reads some parts, one after another.
-    pub fn read(&mut self, parts: &[Part]) -> Result<Vec<u8>, GpuError> {
-        self.read_with(parts, <[u8]>::to_vec)
-    }
-
     /// Waits for all work and reads the numbers that a buffer begins with.
     pub fn read_numbers(
         &mut self,
@@ -187,26 +178,13 @@ impl Recorder {
         values: &mut [f64],
         number: Number,
     ) -> Result<(), GpuError> {
-        for (piece, at) in values
-            .chunks_mut(PIECE / number.bytes())
-            .zip((start..).step_by(PIECE))
-        {
-            let part = Part {
-                buffer,
-                start: at,
-                length: number.bytes() * piece.len(),
-            };
-            self.read_with(&[part], |bytes| number.read_bytes(bytes, piece))?;
-        }
-        Ok(())
+        self.submit(&[])?;
+        let device = &self.device;
+        device.transfer(|transfers| transfers.read(device, (buffer, start), values, number))
     }
 
-    /// Waits for all work and calls a function with some parts, one after another.
-    fn read_with<R>(
-        &mut self,
-        parts: &[Part],
-        take: impl FnOnce(&[u8]) -> R,
-    ) -> Result<R, GpuError> {
+    /// Waits for all work and reads some parts, one after another.
+    pub fn read(&mut self, parts: &[Part]) -> Result<Vec<u8>, GpuError> {
         let length: usize = parts.iter().map(|part| part.length).sum();
         let size = length.next_multiple_of(8) as u64;
         let staging = match self.staging.take() {
@@ -236,12 +214,8 @@ impl Recorder {
             .recv()
             .map_err(|_| GpuError::Device("a read was given up".to_string()))?
             .map_err(|error| GpuError::Device(error.to_string()))?;
-        let taken = take(
-            &staging
-                .get_mapped_range(0..size)
-                .map_err(|error| GpuError::Device(error.to_string()))?[..length],
-        );
+        let bytes = staging.get_mapped_range(0..size)?[..length].to_vec();
         staging.unmap();
-        Ok(taken)
+        Ok(bytes)
     }
 }
