@@ -245,10 +245,12 @@ impl Carry for History {
         let scales = problem.scales;
         let unit = scales.length * scales.pressure * problem.grid.pixel_area();
         let rigid = (evaluation.displacement_offset + problem.height_origin) / scales.length;
-        {
-            let height_at = problem.padded_height();
-            host_fields::change(&mut displacement, |point, u| *u += height_at(point) + rigid);
-        }
+        let width = problem.shape.points[0];
+        host_fields::change_rows(&mut displacement, width, |row, line| {
+            let height_at = problem.padded_row(row);
+            let points = line.iter_mut().enumerate();
+            points.for_each(|(x, u)| *u += height_at(x) + rigid);
+        });
         let depths = solver.plastic_depths().into_iter().flatten();
         for (u, depth) in displacement.iter_mut().zip(depths) {
             *u -= depth;

@@ -73,6 +73,12 @@ impl Heights {
         move |point| (metres[point] - self.origin) / self.unit
     }
 
+    /// The height at each point of a held row of so many grid points, reduced; none beyond its end, or of a row beyond the last.
+    pub fn row(&self, row: usize, width: usize) -> impl Fn(usize) -> Option<f64> + '_ {
+        let metres = self.held().chunks_exact(width).nth(row).unwrap_or_default();
+        move |x| metres.get(x).map(|h| (h - self.origin) / self.unit)
+    }
+
     /// Those held, row by row, reduced.
     pub fn iter(&self) -> impl ExactSizeIterator<Item = f64> + '_ {
         self.held().iter().map(|h| (h - self.origin) / self.unit)

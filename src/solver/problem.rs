@@ -407,19 +407,10 @@ impl Problem {
         padded
     }
 
-    /// The height at each held solved point, 0 on a pad.
-    pub fn padded_height(&self) -> impl Fn(usize) -> f64 + Sync + '_ {
-        let width = self.shape.points[0];
-        let (nx, ny) = (self.shape.surface[0], self.share.surface_rows().len());
-        let height_at = self.heights.by_point();
-        move |point| {
-            let (x, y) = (point % width, point / width);
-            if x < nx && y < ny {
-                height_at(y * nx + x)
-            } else {
-                0.0
-            }
-        }
+    /// The height at each point of a held row of solved points, 0 on a pad.
+    pub fn padded_row(&self, row: usize) -> impl Fn(usize) -> f64 + '_ {
+        let row = self.heights.row(row, self.shape.surface[0]);
+        move |x| row(x).unwrap_or(0.0)
     }
 
     /// The heights over all held solved points, 0 on a pad; none of a sketch.
@@ -429,7 +420,15 @@ impl Problem {
         } else {
             self.share.rows().len()
         };
-        host_fields::made(rows * self.shape.points[0], self.padded_height())
+        let width = self.shape.points[0];
+        let mut heights = vec![0.0; rows * width];
+        host_fields::change_rows(&mut heights, width, |row, line| {
+            let height_at = self.padded_row(row);
+            for (x, height) in line.iter_mut().enumerate() {
+                *height = height_at(x);
+            }
+        });
+        heights
     }
 
     /// The grid's values out of those over all solved points, each of the held rows.

@@ -108,8 +108,12 @@ impl Evaluation {
             Support::Wall
         };
         // The heights as earlier indentation has left them.
-        let (height_at, depths) = (problem.padded_height(), solved.plastic_depth.unwrap_or(&[]));
-        let lowered = |i: usize| height_at(i) - depths.get(i).copied().unwrap_or(0.0);
+        let depths = solved.plastic_depth.unwrap_or(&[]);
+        let lowered = |row: usize| {
+            let height_at = problem.padded_row(row);
+            let depths = depths.get(row * width..).unwrap_or(&[]);
+            move |x: usize| height_at(x) - depths.get(x).copied().unwrap_or(0.0)
+        };
         let yields = problem.hardness.is_some();
         let open = |g: f64| if yields { g.max(0.0) } else { g };
         let (nx, surface_rows) = (problem.shape.surface[0], share.surface_rows().len());
@@ -122,8 +126,9 @@ impl Evaluation {
                     closing.close(row * nx, &mut gap[..nx], &solved.elastic[points]);
                     gap[..nx].iter().for_each(|g| *open_sum += open(*g));
                 }
+                let height_at = lowered(row);
                 for (x, g) in gap.iter().enumerate() {
-                    *sum += g + lowered(row * width + x);
+                    *sum += g + height_at(x);
                 }
             },
         );
@@ -166,7 +171,11 @@ impl Evaluation {
             Boundary::Periodic => (position.mean_pressure / scales.pressure, offset),
             Boundary::Free => (solved.held, offset),
         };
-        let mut points = vec![PointState::Separated; share.surface_len()];
+        // By all threads, each of which takes the pages that it fills.
+        let mut points: Vec<PointState> = (0..share.surface_len())
+            .into_par_iter()
+            .map(|_| PointState::Separated)
+            .collect();
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
         let pulling = |i: usize| match solved.law_factor {
             Some(factors) => factors[i],
@@ -209,8 +218,9 @@ impl Evaluation {
         let [work, adhesive, force, contact, attracted] = share.sums_changing(
             lines,
             |row, ((gap, pressure), points), [work, adhesive, force, contact, attracted]| {
+                let height_at = lowered(row);
                 for (x, (g, p)) in gap.iter().zip(&*pressure).enumerate() {
-                    *work += (p - spring + elastic_part) * (g + lowered(row * width + x) + shift);
+                    *work += (p - spring + elastic_part) * (g + height_at(x) + shift);
                 }
                 let values = gap.iter_mut().zip(pressure);
                 for (x, ((gap, pressure), point)) in
