@@ -8,6 +8,11 @@ pub fn made(points: usize, value_at: impl Fn(usize) -> f64 + Sync) -> Vec<f64> {
     (0..points).into_par_iter().map(&value_at).collect()
 }
 
+/// A field of one value.
+pub fn filled<T: Copy + Send + Sync>(points: usize, value: T) -> Vec<T> {
+    (0..points).into_par_iter().map(|_| value).collect()
+}
+
 /// Changes each value of a field, given its point.
 pub fn change(field: &mut [f64], of: impl Fn(usize, &mut f64) + Sync) {
     let points = field.par_iter_mut().enumerate();

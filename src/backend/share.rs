@@ -207,18 +207,26 @@ impl Share {
         self.sums_of_rows(&of_each_row(rows, &add))
     }
 
-    /// The same where `change` also makes other values of what is given of each row.
-    pub fn sums_changing<T: Send, const N: usize>(
+    /// The same where `change` makes other values of a row's part of three fields. Two have `width` points in a row. The third has
+    /// `third_width`, and in rows beyond its last one its part is empty.
+    pub fn sums_changing<P: Send, const N: usize>(
         &self,
-        rows: impl IndexedParallelIterator<Item = T>,
-        change: impl Fn(usize, T, &mut [f64; N]) + Sync,
+        (width, [first, second]): (usize, [&mut [f64]; 2]),
+        (third_width, third): (usize, &mut [P]),
+        change: impl Fn(usize, [&mut [f64]; 2], &mut [P], &mut [f64; N]) + Sync,
     ) -> [f64; N] {
-        let of_row = |(row, values)| {
+        let rows = first
+            .par_chunks_mut(width)
+            .zip(second.par_chunks_mut(width));
+        let parts = third.par_chunks_mut(third_width);
+        let beyond = (parts.len()..rows.len()).into_par_iter();
+        let parts = parts.chain(beyond.map(|_| <&mut [P]>::default()));
+        let of_row = |(row, ((first, second), third))| {
             let mut sums = [0.0; N];
-            change(row, values, &mut sums);
+            change(row, [first, second], third, &mut sums);
             sums
         };
-        let own: Vec<_> = rows.enumerate().map(of_row).collect();
+        let own: Vec<_> = rows.zip(parts).enumerate().map(of_row).collect();
         self.sums_of_rows(&own)
     }
 

@@ -6,8 +6,6 @@ use std::f64::consts::{LN_2, PI};
 use super::control::{Controller, Position};
 use super::row::State;
 use super::setup::Setup;
-use rayon::prelude::*;
-
 use crate::backend::{BackendError, Share, host_fields};
 use crate::grid::Boundary;
 use crate::law::{Law, Support, imbalance, net_pressure};
@@ -99,7 +97,7 @@ impl Evaluation {
         mut solved: Solved,
     ) -> Result<Self, BackendError> {
         let share = &problem.share;
-        let (width, rows) = (problem.shape.points[0], share.rows().len());
+        let width = problem.shape.points[0];
         let scales = problem.scales;
         let law = setup.law.reduced(scales.length, scales.pressure);
         let closed_support = if setup.sums_attraction() {
@@ -118,12 +116,14 @@ impl Evaluation {
         let open = |g: f64| if yields { g.max(0.0) } else { g };
         let (nx, surface_rows) = (problem.shape.surface[0], share.surface_rows().len());
         let closing = Closing::new(setup, problem, &solved, &law);
+        let fields = [&mut solved.gap[..], &mut solved.elastic[..]];
+        let none: &mut [PointState] = &mut [];
         let [sum, open_sum] = share.sums_changing(
-            solved.gap.par_chunks_mut(width),
-            |row, gap, [sum, open_sum]| {
+            (width, fields),
+            (nx, none),
+            |row, [gap, elastic], _, [sum, open_sum]| {
                 if row < surface_rows {
-                    let points = row * width..row * width + nx;
-                    closing.close(row * nx, &mut gap[..nx], &solved.elastic[points]);
+                    closing.close(row * nx, &mut gap[..nx], &elastic[..nx]);
                     gap[..nx].iter().for_each(|g| *open_sum += open(*g));
                 }
                 let height_at = lowered(row);
@@ -171,11 +171,7 @@ impl Evaluation {
             Boundary::Periodic => (position.mean_pressure / scales.pressure, offset),
             Boundary::Free => (solved.held, offset),
         };
-        // By all threads, each of which takes the pages that it fills.
-        let mut points: Vec<PointState> = (0..share.surface_len())
-            .into_par_iter()
-            .map(|_| PointState::Separated)
-            .collect();
+        let mut points = host_fields::filled(share.surface_len(), PointState::Separated);
         let negative_is_contact = matches!(problem.law, Law::LennardJones(_));
         let pulling = |i: usize| match solved.law_factor {
             Some(factors) => factors[i],
@@ -207,25 +203,17 @@ impl Evaluation {
             setup.law_factor(i) * law.energy(g)
         };
         // The work of all solved points, then the results of those of the surface, in the places of what was solved.
-        let beyond = rows - surface_rows;
-        let points_of_rows = points.par_chunks_mut(nx).map(Some);
-        let points_of_rows = points_of_rows.chain((0..beyond).into_par_iter().map(|_| None));
-        let lines = solved
-            .gap
-            .par_chunks_mut(width)
-            .zip(solved.elastic.par_chunks_mut(width))
-            .zip(points_of_rows);
+        let fields = [&mut solved.gap[..], &mut solved.elastic[..]];
         let [work, adhesive, force, contact, attracted] = share.sums_changing(
-            lines,
-            |row, ((gap, pressure), points), [work, adhesive, force, contact, attracted]| {
+            (width, fields),
+            (nx, &mut points),
+            |row, [gap, pressure], points, [work, adhesive, force, contact, attracted]| {
                 let height_at = lowered(row);
                 for (x, (g, p)) in gap.iter().zip(&*pressure).enumerate() {
                     *work += (p - spring + elastic_part) * (g + height_at(x) + shift);
                 }
                 let values = gap.iter_mut().zip(pressure);
-                for (x, ((gap, pressure), point)) in
-                    values.zip(points.into_iter().flatten()).enumerate()
-                {
+                for (x, ((gap, pressure), point)) in values.zip(points).enumerate() {
                     *adhesive += evaluate(row * nx + x, gap, pressure, point);
                     *force += *pressure;
                     *contact += f64::from(*point == PointState::Contact);
