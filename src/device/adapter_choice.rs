@@ -58,8 +58,9 @@ fn choice() -> AdapterChoice {
 /// double precision), `binding=BYTES` (it binds no more), `slab=BYTES` (a buffer holds no more of a
 /// field), `line=POINTS` (a workgroup holds no longer line), `memory=BYTES` (it has no more),
 /// `lost=DISPATCHES` (it is lost after so many), `nan=DISPATCHES` (numbers are NaN after so many),
-/// `compiling=MILLISECONDS` (a shader takes so much longer to compile) and
-/// `plain-sums` (its compiler undoes the compensation of sums).
+/// `compiling=MILLISECONDS` (a shader takes so much longer to compile),
+/// `plain-sums` (its compiler undoes the compensation of sums) and `unrolled` (a software driver gets
+/// the shaders of a graphics processor).
 #[cfg(feature = "fault-injection")]
 fn choice() -> AdapterChoice {
     let asked = std::env::var("TABOR_TEST_GPU").unwrap_or_default();
@@ -81,6 +82,7 @@ fn choice() -> AdapterChoice {
             not_a_number_after: number("nan"),
             compiling: number("compiling"),
             plain_sums: asked.split(',').any(|word| word == "plain-sums"),
+            unrolled: asked.split(',').any(|word| word == "unrolled"),
         },
         ..AdapterChoice::default()
     }

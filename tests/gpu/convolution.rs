@@ -59,7 +59,7 @@ const SIZES_IN_DOUBLE: [[usize; 2]; 4] = [[120, 84], [28, 250], [2048, 2], [6, 4
 
 /// What one convolution gives: of one field with the stiffness, with its energy, and of a sum of two with
 /// another response; of both with a table where there is none.
-fn convolve(
+pub fn convolve(
     backend: &mut dyn Backend,
     [nx, ny]: [usize; 2],
     response: Option<Response>,

@@ -23,7 +23,7 @@ use crate::shared::trials::tests;
 /// Fine and coarse points of the tests. Rows of 16 points are the cheapest to compile in software, four values a thread for
 /// which a kernel is written out; their 40 pairs are two workgroups, the second half idle. `convolution.rs` transforms
 /// other lengths.
-const FINE: [usize; 2] = [16, 80];
+pub const FINE: [usize; 2] = [16, 80];
 const COARSE: [usize; 2] = [8, 40];
 /// Points of the surface where there is a pad; no powers of two.
 const SURFACE: [usize; 2] = [14, 70];
@@ -69,7 +69,7 @@ fn laws() -> [(&'static str, Law); 5] {
     ]
 }
 
-fn params(law: Law, prescribed_mean_gap: bool, number: Number) -> Params {
+pub fn params(law: Law, prescribed_mean_gap: bool, number: Number) -> Params {
     Params {
         law,
         stiffness_max: 2.0,
@@ -117,16 +117,16 @@ const OUTER: [&str; 4] = [
 
 /// What is bound beside a kernel's fields, and their number.
 #[derive(Clone, Copy, Debug)]
-struct Case {
-    patterned: bool,
-    based: bool,
-    number: Number,
+pub struct Case {
+    pub patterned: bool,
+    pub based: bool,
+    pub number: Number,
 }
 
 /// What a kernel leaves behind: its written fields, its lines and its sums.
-struct Trace {
-    fields: Vec<Vec<f64>>,
-    sums: Vec<f64>,
+pub struct Trace {
+    pub fields: Vec<Vec<f64>>,
+    pub sums: Vec<f64>,
 }
 
 /// Seeded values with all the digits that a field holds.
@@ -158,7 +158,7 @@ fn passing() -> Scalars {
 
 /// Runs a kernel on a fresh level with seeded fields; `poison` tells which of its written fields are
 /// filled with NaN.
-fn run(
+pub fn run(
     backend: &mut dyn Backend,
     kernel: &'static Kernel,
     params: &Params,
@@ -298,7 +298,7 @@ fn is_number(trace: &Trace) -> bool {
 
 /// Runs a kernel as its twin and on the device, and compares; `worst` keeps the largest differences at a
 /// point and in a sum.
-fn compare(
+pub fn compare(
     kernel: &'static Kernel,
     params: &Params,
     shape: Shape,

@@ -6,6 +6,7 @@ use std::process::ExitCode;
 mod catalogue;
 mod convolution;
 mod kernels;
+mod loops;
 mod path;
 mod run;
 mod shaders;
@@ -22,6 +23,7 @@ fn main() -> ExitCode {
         catalogue::tests(),
         convolution::tests(),
         kernels::tests(),
+        loops::tests(),
         path::tests(),
         run::tests(),
         shaders::tests(),

@@ -5,7 +5,7 @@ use tabor::backend::Shape;
 use tabor::backend::gpu::source::{
     self, Decision, FactorSource, LawSource, LevelPlan, Pass, Reduction, Results,
 };
-use tabor::backend::gpu::{Direction, Exchange, GroupLimits, Limits, Number, Wide};
+use tabor::backend::gpu::{Direction, Exchange, GroupLimits, Limits, Loops, Number, Wide};
 use tabor::kernel::displacement::{LOAD_FIELD, STORE_FIELD};
 use tabor::kernel::multilevel::COARSEN;
 use tabor::kernel::{Gate, Sum};
@@ -109,8 +109,12 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
         for law in LAWS {
             for (number, wide) in NUMBERS {
                 let padded = LevelPlan::new(padded, LIMITS, number).expect("a smooth size");
-                for plan in [&plan(48, 64, number), &padded] {
-                    let text = source::kernel(kernel, plan, whole, uniform(law), wide)
+                // What becomes of loops has no part in a law.
+                let looped =
+                    (law == Law::HardWall).then(|| plan(48, 64, number).with_loops(Loops::Kept));
+                let plans = [plan(48, 64, number), padded].into_iter().chain(looped);
+                for plan in plans {
+                    let text = source::kernel(kernel, &plan, whole, uniform(law), wide)
                         .unwrap_or_else(|error| panic!("{error}"));
                     let (module, _) = validate(kernel.name, &text, wide);
                     let declared: Vec<_> = (0..kernel.fields() as u32)
@@ -126,7 +130,7 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
                         outer_gap: Some(kernel.fields()),
                         ..uniform(law)
                     };
-                    let text = source::kernel(kernel, plan, whole, corrected, wide)
+                    let text = source::kernel(kernel, &plan, whole, corrected, wide)
                         .unwrap_or_else(|error| panic!("{error}"));
                     validate(kernel.name, &text, wide);
                 }
@@ -223,9 +227,12 @@ fn slabs_and_long_lines_are_valid() {
             let name = format!("{nx} x {ny}");
             for kernel in [&LOAD_FIELD, &STORE_FIELD, &COARSEN] {
                 let whole = source::Whole::new(&plan);
-                let text = source::kernel(kernel, &plan, whole, uniform(Law::HardWall), wide)
-                    .unwrap_or_else(|error| panic!("{error}"));
-                validate(&name, &text, wide);
+                for loops in [Loops::Unrolled, Loops::Kept] {
+                    let plan = plan.clone().with_loops(loops);
+                    let text = source::kernel(kernel, &plan, whole, uniform(Law::HardWall), wide)
+                        .unwrap_or_else(|error| panic!("{error}"));
+                    validate(&name, &text, wide);
+                }
             }
             let gate = Gate::Running;
             for direction in [Direction::Forward, Direction::Inverse] {
@@ -271,9 +278,11 @@ fn reductions_are_valid() {
                     first: 5,
                     gate,
                 };
-                let text = source::decide(&[Decision::Sums(reduction); 2], wide)
-                    .unwrap_or_else(|error| panic!("{error}"));
-                validate("decide", &text, wide);
+                for loops in [Loops::Unrolled, Loops::Kept] {
+                    let text = source::decide(&[Decision::Sums(reduction); 2], wide, loops)
+                        .unwrap_or_else(|error| panic!("{error}"));
+                    validate("decide", &text, wide);
+                }
             }
         }
     }
@@ -290,7 +299,7 @@ fn the_copy_of_members_is_valid() {
 fn scalar_kernels_are_valid() {
     for wide in WIDES {
         for kernel in SCALAR_KERNELS {
-            let text = source::decide(&[Decision::Scalar(kernel)], wide)
+            let text = source::decide(&[Decision::Scalar(kernel)], wide, Loops::Unrolled)
                 .unwrap_or_else(|error| panic!("{error}"));
             validate(kernel.name, &text, wide);
         }

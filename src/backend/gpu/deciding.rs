@@ -87,7 +87,7 @@ impl GpuBackend {
                     Part::Sums(sums) => Decision::Sums(sums.reduction),
                 })
                 .collect();
-            let text = source::decide(&decisions, backend.wide)?;
+            let text = source::decide(&decisions, backend.wide, backend.device.loops())?;
             let space = backend.level_space(level)?;
             let shared = [&backend.params, &backend.scalars, &space.partials];
             let prepared = backend.prepare("decide", text, &[(DECIDING, &shared)], [1, 1])?;

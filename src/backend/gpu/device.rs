@@ -9,6 +9,7 @@ use super::adapter::{AdapterChoice, AdapterDescription, choose, describe, enumer
 use super::error::GpuError;
 use super::layout::{Number, Wide};
 use super::level::LevelPlan;
+use super::loops::Loops;
 use super::pipelines::Pipelines;
 use super::slabs::Limits;
 use super::space;
@@ -52,6 +53,7 @@ struct Inner {
     description: AdapterDescription,
     pipelines: Pipelines,
     transfers: Mutex<Transfers>,
+    loops: Loops,
     lost: Arc<OnceLock<String>>,
     /// Whether the compiler undoes compensated sums.
     plain_sums: OnceLock<bool>,
@@ -82,6 +84,10 @@ impl GpuDevice {
         let faults = choice.faults();
         description.limits = faults.narrowed(description.limits);
         description.double &= !(faults.without_double || faults.plain_sums);
+        let loops = match description.software() && !faults.unrolled {
+            true => Loops::Kept,
+            false => Loops::Unrolled,
+        };
         // Timestamps cost nothing until they are asked for.
         let mut required_features = adapter.features() & wgpu::Features::TIMESTAMP_QUERY;
         if description.double {
@@ -114,6 +120,7 @@ impl GpuDevice {
                 description,
                 pipelines: Pipelines::default(),
                 transfers: Mutex::default(),
+                loops,
                 lost,
                 plain_sums: OnceLock::new(),
                 left: faults.lost_after.map(AtomicU64::new),
@@ -144,6 +151,11 @@ impl GpuDevice {
         } else {
             Wide::Compensated
         }
+    }
+
+    /// What becomes of the loops of its shaders.
+    pub(super) fn loops(&self) -> Loops {
+        self.inner.loops
     }
 
     /// Whether both are the same device.

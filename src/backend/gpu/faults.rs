@@ -10,6 +10,8 @@ pub struct Faults {
     pub without_double: bool,
     /// Whether compensated sums are taken to come out wrong.
     pub plain_sums: bool,
+    /// Whether a software driver gets the shaders of a graphics processor.
+    pub unrolled: bool,
     /// Bytes that may be bound at a time, if less than the adapter takes.
     pub binding_limit: Option<u64>,
     /// Bytes of a field that go into one buffer, if less than the adapter binds.

@@ -16,7 +16,7 @@ impl GpuBackend {
     /// precision takes, if that is there too.
     pub(super) fn plan(&self, shape: Shape) -> Result<LevelPlan, GpuError> {
         let limits: Limits = self.device.limits();
-        let own = LevelPlan::laid_out(shape, &limits, self.number)?;
+        let own = LevelPlan::laid_out(shape, &limits, self.number)?.with_loops(self.device.loops());
         if !self.corrects_here(shape) {
             return Ok(own);
         }

@@ -2,6 +2,7 @@
 
 use super::error::GpuError;
 use super::layout::Number;
+use super::loops::Loops;
 use super::plan::{GroupLimits, LinePlan};
 use crate::backend::Shape;
 use crate::kernel::{Form, SUMS};
@@ -59,12 +60,19 @@ pub struct LevelPlan {
     pub slabs: usize,
     /// Parts of a spectrum, each of as many columns but the last.
     pub parts: usize,
+    /// What becomes of the loops of its shaders.
+    pub loops: Loops,
 }
 
 impl LevelPlan {
     /// The plan of a shape in one slab, if its numbers are even, smooth and not too large.
     pub fn new(shape: Shape, limits: GroupLimits, number: Number) -> Result<Self, GpuError> {
         LevelPlan::with_lines(shape, limits, number, usize::MAX)
+    }
+
+    /// The same with other shaders.
+    pub fn with_loops(self, loops: Loops) -> Self {
+        LevelPlan { loops, ..self }
     }
 
     /// Number of points.

@@ -12,6 +12,7 @@ use super::dispatching::working;
 use super::error::GpuError;
 use super::layout::Number;
 use super::level::LevelPlan;
+use super::loops::Loops;
 use super::plan::{GroupLimits, LinePlan};
 use super::source::{self, FactorSource, Pass};
 use super::space::Key;
@@ -87,6 +88,7 @@ impl LevelPlan {
             columns_then,
             slabs: 1,
             parts: 1,
+            loops: Loops::Unrolled,
         })
     }
 

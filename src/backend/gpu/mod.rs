@@ -20,6 +20,7 @@ mod filling;
 mod layout;
 mod level;
 mod long;
+mod loops;
 #[cfg(feature = "fault-injection")]
 mod members;
 mod pipelines;
@@ -53,6 +54,7 @@ pub use error::GpuError;
 #[cfg(feature = "fault-injection")]
 pub use faults::Faults;
 pub use layout::{Number, Wide};
+pub use loops::Loops;
 pub use plan::{Exchange, GroupLimits, LinePlan, radices};
 pub use quiet::{quietly, restore_standard_error};
 pub use sharing::SharedBuffer;

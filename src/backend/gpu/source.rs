@@ -16,6 +16,7 @@ mod rows;
 mod slabs;
 mod snapshot;
 mod sums;
+mod visits;
 
 use std::fmt::Write;
 
@@ -124,7 +125,14 @@ pub fn kernel(
             _ => (plan.rows.group_threads(), plan.rows.sums_at_once),
         };
         let at_once = at_once.min(kernel.sums.len());
-        let (sums, team) = (Summed::of_kernel(kernel), Team { threads, at_once });
+        let (sums, team) = (
+            Summed::of_kernel(kernel),
+            Team {
+                threads,
+                at_once,
+                loops: plan.loops,
+            },
+        );
         let first = plan.first_partial(Place::for_form(kernel.form));
         let groups = [plan.slabs, plan.slab_groups(kernel.form)];
         sums::declare(&mut source, &sums);
@@ -302,6 +310,7 @@ fn curvature(source: &mut String, plan: &LevelPlan, line: &LinePlan) {
     let team = Team {
         threads: line.group_threads(),
         at_once: 1,
+        loops: plan.loops,
     };
     let groups = [plan.parts, plan.part_groups()];
     sums::declare(source, &sums);

@@ -6,6 +6,7 @@ use super::super::catalogue;
 use super::super::error::GpuError;
 use super::super::layout::Wide;
 use super::super::level::{SWEEP_SUMS_AT_ONCE, SWEEP_THREADS};
+use super::super::loops::Loops;
 use super::sums::{self, Summed, Team};
 use super::{gate_name, preamble};
 use crate::kernel::{Gate, Reduce, ScalarKernel, Sum};
@@ -54,7 +55,7 @@ pub enum Decision {
 /// One dispatch that adds up all partial sums in a fixed order, then runs its parts one after another: a
 /// reduction's results are stored if the gate of the kernel that wrote them is open; a scalar kernel is run.
 /// An error if a scalar kernel has no shader. The entry point is `decide`.
-pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
+pub fn decide(parts: &[Decision], wide: Wide, loops: Loops) -> Result<String, GpuError> {
     let mut source = String::new();
     let reductions: Vec<Reduction> = parts
         .iter()
@@ -80,7 +81,7 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
     let threads = match reductions.is_empty() {
         true => 1,
         false => {
-            put_together(&mut source, &reductions);
+            put_together(&mut source, &reductions, loops);
             SWEEP_THREADS
         }
     };
@@ -124,7 +125,7 @@ pub fn decide(parts: &[Decision], wide: Wide) -> Result<String, GpuError> {
 
 /// Writes the function that adds up partial sums. Those of a reduction are read side by side, so that they do not
 /// wait for one another.
-fn put_together(source: &mut String, reductions: &[Reduction]) {
+fn put_together(source: &mut String, reductions: &[Reduction], loops: Loops) {
     let reduces = reductions.iter().flat_map(|what| what.results.reduces());
     let sums: Vec<Summed> = reduces
         .enumerate()
@@ -133,6 +134,7 @@ fn put_together(source: &mut String, reductions: &[Reduction]) {
     let team = Team {
         threads: SWEEP_THREADS,
         at_once: SWEEP_SUMS_AT_ONCE.min(sums.len()),
+        loops,
     };
     sums::declare(source, &sums);
     sums::memory(source, team);

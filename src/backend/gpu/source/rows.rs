@@ -11,11 +11,9 @@ use super::super::catalogue;
 use super::super::fft::LineWriter;
 use super::super::level::LevelPlan;
 use super::slabs::first_turn;
+use super::visits::visits;
 use super::{ends, frame, long};
-use crate::kernel::{Form, Kernel};
-
-/// Values of a thread whose fields are read before the kernel's own part runs on the first: as many as its registers have room for.
-const LEGS_TOGETHER: usize = 2;
+use crate::kernel::Kernel;
 
 /// The beginning of a kernel on pairs of rows; `pair` is this thread's pair.
 fn head(source: &mut String, kernel: &Kernel, plan: &LevelPlan, open: &str) {
@@ -44,7 +42,6 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
     let form = kernel.form;
     let (open, close) = frame(kernel);
     head(source, kernel, plan, &open);
-    let half = plan.slab_pairs() * plan.shape[0];
     let (first, last) = ends(&plan.rows);
     let mut writer = long::row_writer(plan);
     let (begin, end) = long::row_frame(plan);
@@ -77,36 +74,7 @@ pub fn rows_main(source: &mut String, kernel: &Kernel, plan: &LevelPlan) {
         take(&mut writer, first);
     }
     writer.source.push_str("if (inside) {\n");
-    writer.butterflies(first, |source, each| {
-        let legs: Vec<usize> = (0..each.radix).collect();
-        for together in legs.chunks(LEGS_TOGETHER) {
-            for leg in together {
-                let index = long::row_index(plan, &each.position(*leg));
-                let _ = writeln!(
-                    source,
-                    "let index{leg} = {index};\n\
-                     let upper{leg} = fields_at(index{leg});\n\
-                     let lower{leg} = fields_at(index{leg} + {half}u);"
-                );
-            }
-            for leg in together {
-                let name = each.name(*leg);
-                let line = |part: &str| match form {
-                    Form::Load | Form::Retain => "0.0".to_owned(),
-                    _ => format!("{name}.{part}"),
-                };
-                let upper = format!("visit(index{leg}, upper{leg}, {})", line("x"));
-                let lower = format!("visit(index{leg} + {half}u, lower{leg}, {})", line("y"));
-                let _ = match form {
-                    Form::Store | Form::ReadRetained => writeln!(source, "{upper};\n{lower};"),
-                    _ => writeln!(
-                        source,
-                        "{{ let upper = {upper};\n{name} = vec2<real>(upper, {lower}); }}"
-                    ),
-                };
-            }
-        }
-    });
+    visits(&mut writer, form, plan, first);
     writer.source.push_str("}\n");
     if form.before_forward() {
         writer.transform(Direction::Forward);

@@ -4,6 +4,7 @@
 use super::super::catalogue;
 use super::super::error::GpuError;
 use super::super::layout::{self, Number, Wide};
+use super::super::loops::Loops;
 use super::super::plan::GroupLimits;
 use super::{Decision, FactorSource, LawSource, LevelPlan, Reduction, Results, Whole};
 use crate::backend::Shape;
@@ -88,7 +89,10 @@ pub fn representative() -> Result<Vec<(String, String)>, GpuError> {
     };
     let mut parts: Vec<_> = KERNELS[4].iter().take(1).map(sums).collect();
     parts.extend(SCALAR_KERNELS.iter().map(|kernel| Decision::Scalar(kernel)));
-    all.push(("decide".to_owned(), super::decide(&parts, double)?));
+    all.push((
+        "decide".to_owned(),
+        super::decide(&parts, double, Loops::Unrolled)?,
+    ));
     let plan = LevelPlan::new(whole, LIMITS, single)?;
     let multiply = super::multiply(&plan, FactorSource::Stiffness, true, Gate::Running, double);
     all.push(("multiply".to_owned(), multiply));

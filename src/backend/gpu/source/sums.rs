@@ -5,6 +5,7 @@
 
 use std::fmt::Write;
 
+use super::super::loops::Loops;
 use super::slabs::after_turns;
 use crate::kernel::{Kernel, Reduce, Sum};
 
@@ -65,6 +66,8 @@ pub struct Team {
     pub threads: usize,
     /// Sums that are joined together.
     pub at_once: usize,
+    /// What becomes of the loop over the halvings.
+    pub loops: Loops,
 }
 
 /// Declares the sums of a thread; `start_sums` sets them to those of nothing.
@@ -111,7 +114,9 @@ pub fn join(
     team: Team,
     store: impl Fn(usize, &str) -> String,
 ) {
-    let Team { threads, at_once } = team;
+    let Team {
+        threads, at_once, ..
+    } = team;
     for (turn, together) in sums.chunks(at_once).enumerate() {
         if turn > 0 {
             source.push_str("workgroupBarrier();\n");
@@ -125,20 +130,9 @@ pub fn join(
             );
         }
         source.push_str("workgroupBarrier();\n");
-        let mut left = threads;
-        while left > 1 {
-            let half = left.next_power_of_two() / 2;
-            let _ = writeln!(source, "if (thread < {}u) {{", left - half);
-            for (place, sum) in together.iter().enumerate() {
-                let (first, other) = (place * threads, place * threads + half);
-                let _ = writeln!(
-                    source,
-                    "group_values[{first}u + thread] = {}(group_values[{first}u + thread], group_values[{other}u + thread]);",
-                    sum.parts_joined(),
-                );
-            }
-            source.push_str("}\nworkgroupBarrier();\n");
-            left = half;
+        match team.loops {
+            Loops::Unrolled => halvings(source, together, threads),
+            Loops::Kept => loop_over_halvings(source, together, threads),
         }
         source.push_str("if (thread == 0u) {\n");
         for place in 0..together.len() {
@@ -147,6 +141,44 @@ pub fn join(
         }
         source.push_str("}\n");
     }
+}
+
+/// The halvings, one after another.
+fn halvings(source: &mut String, together: &[Summed], threads: usize) {
+    let mut left = threads;
+    while left > 1 {
+        let half = left.next_power_of_two() / 2;
+        let _ = writeln!(source, "if (thread < {}u) {{", left - half);
+        for (place, sum) in together.iter().enumerate() {
+            let (first, other) = (place * threads, place * threads + half);
+            let _ = writeln!(
+                source,
+                "group_values[{first}u + thread] = {}(group_values[{first}u + thread], group_values[{other}u + thread]);",
+                sum.parts_joined(),
+            );
+        }
+        source.push_str("}\nworkgroupBarrier();\n");
+        left = half;
+    }
+}
+
+/// The same as a loop.
+fn loop_over_halvings(source: &mut String, together: &[Summed], threads: usize) {
+    let half = threads.next_power_of_two() / 2;
+    let _ = writeln!(
+        source,
+        "for (var half = {half}u; half > params.zero; half = half / 2u) {{\n\
+         if (thread < min({threads}u, 2u * half) - half) {{"
+    );
+    for (place, sum) in together.iter().enumerate() {
+        let first = place * threads;
+        let _ = writeln!(
+            source,
+            "group_values[{first}u + thread] = {}(group_values[{first}u + thread], group_values[{first}u + half + thread]);",
+            sum.parts_joined(),
+        );
+    }
+    source.push_str("}\nworkgroupBarrier();\n}\n");
 }
 
 /// Code that stores a workgroup's sums at `first_partial` and beyond, for this many workgroups in each dispatch.
