@@ -15,7 +15,7 @@ use super::folder::write_within;
 pub struct Summary {
     /// Version of tabor.
     pub version: String,
-    /// The scene as resolved, with its defaults.
+    /// The scene as resolved, with its defaults and the lengths of the law that `"auto"` stands for.
     pub scene: Value,
     /// The effects that ran and those that did not.
     pub effects: Effects,

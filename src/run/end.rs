@@ -2,6 +2,8 @@
 
 use std::fmt;
 
+use serde_json::{Value, json};
+
 use super::memory_check::MemoryError;
 use crate::backend::BackendError;
 use crate::backend::ranks::RankError;
@@ -125,6 +127,18 @@ impl RunEnd {
     }
 }
 
+/// The scene as resolved, with the range and the taper that `"auto"` stands for.
+fn resolved_scene(setup: &Setup) -> Value {
+    let mut scene = setup.scene.resolved_json();
+    for (key, length) in [("range", setup.law.range()), ("taper", setup.law.taper())] {
+        match scene.pointer_mut(&format!("/adhesion/{key}")) {
+            Some(value) if value == "auto" => *value = json!(length),
+            _ => {}
+        }
+    }
+    scene
+}
+
 /// The summary of a path that ended.
 pub(super) fn summary(
     setup: &Setup,
@@ -146,7 +160,7 @@ pub(super) fn summary(
         .map_or([None; 2], |bounds| bounds.map(Some));
     Summary {
         version: env!("CARGO_PKG_VERSION").to_owned(),
-        scene: setup.scene.resolved_json(),
+        scene: resolved_scene(setup),
         effects: Effects {
             on: names(true),
             off: names(false),

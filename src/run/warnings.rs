@@ -22,7 +22,7 @@ pub(super) fn warnings_at_end(
     rounding(setup, device, &end.rows)
         .into_iter()
         .chain(pull_off)
-        .chain(hysteresis(end))
+        .chain(hysteresis(end, setup.scene.solver.tolerance))
         .collect()
 }
 
@@ -51,11 +51,14 @@ fn rounding(setup: &Setup, device: &SelectedDevice, rows: &[StepRow]) -> Option<
     ))
 }
 
-/// A warning if the steps of a loop that jumps are too long to tell what it loses.
-fn hysteresis(end: &WalkEnd) -> Option<String> {
+/// A warning if the steps of a loop that jumps are too long to tell what it loses. Energies are known to the solver's tolerance.
+fn hysteresis(end: &WalkEnd, tolerance: f64) -> Option<String> {
     let energy = end.hysteresis_energy?;
     let Some(uncertainty) = end.hysteresis_uncertainty else {
-        return (energy < 0.0).then(|| {
+        let stored = end.rows.iter();
+        let stored = stored.map(|row| row.elastic_energy.abs().max(row.adhesive_energy.abs()));
+        let known_to = tolerance * stored.fold(0.0, f64::max);
+        return (energy < -known_to).then(|| {
             format!(
                 "hysteresis_energy, {}, is less than nothing: the steps of the loop are too long; take more of them",
                 format_si(energy, "J")

@@ -112,7 +112,8 @@ impl Attempt<'_> {
             let is_open =
                 outcome.status == Status::Stalled && outcome.residual > settings.tolerance;
             let is_held = self.problem.hardness.is_some();
-            if !is_open || is_held || !self.problem.law.has_wall() {
+            let left = settings.max_iterations.saturating_sub(outcome.iterations);
+            if !is_open || is_held || !self.problem.law.has_wall() || left == 0 {
                 break;
             }
             let mut nearer = self.moved_by_points(outcome.mean_pressure)?;
@@ -122,7 +123,6 @@ impl Attempt<'_> {
                 let scale = if mean > 0.0 { held / mean } else { 1.0 };
                 nearer.iter_mut().for_each(|gap| *gap *= scale);
             }
-            let left = settings.max_iterations.saturating_sub(outcome.iterations);
             let before = outcome.iterations;
             outcome = self.solve_to(settings.tolerance, left, load, &Start::Gap(nearer))?;
             outcome.iterations += before;

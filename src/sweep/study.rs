@@ -205,6 +205,12 @@ impl Study {
                 return Err(wrong(place, reason));
             }
         }
+        if let Some(key) = &self.plot.x
+            && self.plot.series.as_ref() == Some(key)
+        {
+            let reason = format!("{key} is x already; take another axis, or leave series out");
+            return Err(wrong("series", reason));
+        }
         match &self.plot.y {
             Some(y) if !QUANTITIES.iter().any(|quantity| quantity.name == y) => {
                 let names = QUANTITIES.map(|quantity| quantity.name).join(", ");

@@ -161,6 +161,27 @@ fn without_seconds(folder: &Path) -> Vec<Vec<String>> {
     rows
 }
 
+/// A scene with the lengths that the summary states in place of "auto" is the same contact.
+fn lengths_that_the_grid_sets_are_in_the_summary() {
+    let (folder, _) = scene(ROUGH);
+    let run = |out: &str, lengths: [String; 2]| {
+        let mut arguments = vec!["run", "scene.toml", "--out", out, "--quiet"];
+        for set in &lengths {
+            arguments.extend(["--set", set]);
+        }
+        assert_eq!(status(&tabor(folder.path(), &arguments)), 0);
+        folder.path().join(out)
+    };
+    let keys = ["range", "taper"];
+    let auto = run("auto", keys.map(|key| format!("adhesion.{key}=auto")));
+    let stated = &summary(&auto)["scene"]["adhesion"];
+    let lengths = keys.map(|key| stated[key].as_f64().expect("a length"));
+    assert!(lengths.iter().all(|&length| length > 0.0), "{lengths:?}");
+    let set = |place: usize| format!("adhesion.{}={:e}", keys[place], lengths[place]);
+    let again = run("again", [set(0), set(1)]);
+    assert_eq!(without_seconds(&auto), without_seconds(&again));
+}
+
 fn the_same_scene_gives_the_same_bits() {
     let (folder, _) = scene(ROUGH);
     for (out, threads) in [("one", "1"), ("two", "2"), ("again", "2")] {
@@ -1047,6 +1068,7 @@ tests![
     until_apart_pulls_in_finer_steps_until_the_surfaces_separate,
     the_last_words_and_the_first_line_of_the_report_state_the_result,
     a_run_writes_what_the_contract_says,
+    lengths_that_the_grid_sets_are_in_the_summary,
     the_same_scene_gives_the_same_bits,
     folders_that_are_not_this_scenes_are_left_alone,
     a_file_in_the_way_and_an_unwritable_place,

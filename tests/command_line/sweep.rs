@@ -523,6 +523,12 @@ fn what_is_no_study_is_refused_in_one_message() {
             "plot.x",
         ),
         (
+            &format!(
+                "plot = {{ x = \"surface.0.seed\", series = \"surface.0.seed\" }}\n{axis}key = \"surface.0.seed\"\nvalues = [1]\n"
+            ),
+            "plot.series: surface.0.seed is x already",
+        ),
+        (
             &format!("{axis}key = \"surface.0.seed\"\nvalues = [1, 2, 1]\n"),
             "axis 1 (surface.0.seed): 1 comes twice; leave one of them out",
         ),

@@ -1,5 +1,6 @@
 //! Devices: their limits, and how their failures are caught.
 
+use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Duration;
@@ -269,6 +270,20 @@ impl GpuDevice {
     /// Its shaders.
     pub(super) fn pipelines(&self) -> &Pipelines {
         &self.inner.pipelines
+    }
+
+    /// Waits for the device. Where the driver says meanwhile that it is lost, wgpu panics; here that is an error as well.
+    pub(super) fn wait(&self, until: wgpu::PollType) -> Result<(), GpuError> {
+        let waited =
+            self.guarded(|device| catch_unwind(AssertUnwindSafe(|| device.poll(until))))?;
+        let error = match waited {
+            Ok(Ok(_)) => return Ok(()),
+            Ok(Err(error)) => error.to_string(),
+            Err(panic) => panic
+                .downcast_ref::<String>()
+                .map_or_else(|| "the device is lost".to_string(), String::clone),
+        };
+        Err(GpuError::Device(error))
     }
 
     /// Calls a function with what fields pass through. The lock is not held meanwhile: all threads convert a field, and one of

@@ -4,7 +4,7 @@
 use std::collections::HashMap;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
-use std::thread;
+use std::thread::{self, JoinHandle};
 
 use super::device::GpuDevice;
 use super::error::GpuError;
@@ -13,12 +13,24 @@ use super::error::GpuError;
 #[derive(Clone, Default)]
 pub struct Pipeline {
     compiled: Arc<OnceLock<Result<wgpu::ComputePipeline, GpuError>>>,
+    /// The thread that compiles it, until it has been waited for.
+    thread: Arc<Mutex<Option<JoinHandle<()>>>>,
 }
 
 impl Pipeline {
-    /// Waits for it.
+    /// Waits for it, and for the end of the thread that compiled it: a driver must not be closed while one of its threads
+    /// ends.
     pub fn ready(&self) -> Result<&wgpu::ComputePipeline, GpuError> {
-        self.compiled.wait().as_ref().map_err(Clone::clone)
+        let compiled = self.compiled.wait().as_ref().map_err(Clone::clone);
+        let thread = self.thread();
+        // A thread that panics has said so in its result.
+        let _ = thread.map(JoinHandle::join);
+        compiled
+    }
+
+    fn thread(&self) -> Option<JoinHandle<()>> {
+        let mut thread = self.thread.lock().unwrap_or_else(PoisonError::into_inner);
+        thread.take()
     }
 
     /// Compiles it, whatever comes of that: others wait.
@@ -53,11 +65,20 @@ impl Pipelines {
         let compiling = thread::Builder::new()
             .name("shader".to_string())
             .spawn(move || there.compile(|| compile(&source)));
-        if let Err(error) = compiling {
-            let refused = Err(GpuError::Device(format!(
-                "no thread compiles a shader: {error}"
-            )));
-            pipeline.compiled.get_or_init(|| refused);
+        match compiling {
+            Ok(thread) => {
+                let mut place = pipeline
+                    .thread
+                    .lock()
+                    .unwrap_or_else(PoisonError::into_inner);
+                *place = Some(thread);
+            }
+            Err(error) => {
+                let refused = Err(GpuError::Device(format!(
+                    "no thread compiles a shader: {error}"
+                )));
+                pipeline.compiled.get_or_init(|| refused);
+            }
         }
         pipeline
     }

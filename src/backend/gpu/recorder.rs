@@ -201,15 +201,13 @@ impl Recorder {
         let staging = self.staging.insert(staging).clone();
         self.submit(parts)?;
         let (sender, receiver) = mpsc::channel();
-        self.device.guarded(|device| {
+        self.device.guarded(|_| {
             staging.map_async(wgpu::MapMode::Read, 0..size, move |result| {
                 // The receiver is gone only if the wait below has failed.
                 let _ = sender.send(result);
             });
-            device
-                .poll(wgpu::PollType::wait_indefinitely())
-                .map_err(|error| GpuError::Device(error.to_string()))
-        })??;
+        })?;
+        self.device.wait(wgpu::PollType::wait_indefinitely())?;
         receiver
             .recv()
             .map_err(|_| GpuError::Device("a read was given up".to_string()))?

@@ -174,16 +174,14 @@ impl Timer {
         let bytes = 2 * waiting.len() as u64 * STAMP;
         let (sender, receiver) = mpsc::channel();
         let failed = |error: &dyn std::fmt::Display| GpuError::Device(error.to_string());
-        device.guarded(|device| {
+        device.guarded(|_| {
             self.staging
                 .map_async(wgpu::MapMode::Read, 0..bytes, move |result| {
                     // The receiver is gone only if the wait below has failed.
                     let _ = sender.send(result);
                 });
-            device
-                .poll(wgpu::PollType::wait_indefinitely())
-                .map_err(|error| failed(&error))
-        })??;
+        })?;
+        device.wait(wgpu::PollType::wait_indefinitely())?;
         receiver
             .recv()
             .map_err(|error| failed(&error))?

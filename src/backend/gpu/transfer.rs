@@ -183,14 +183,10 @@ impl Passing {
         let Some(copy) = self.copy.take() else {
             return Ok(());
         };
-        let wait = wgpu::PollType::Wait {
+        device.wait(wgpu::PollType::Wait {
             submission_index: Some(copy),
             timeout: None,
-        };
-        device
-            .guarded(|device| device.poll(wait))?
-            .map_err(|error| GpuError::Device(error.to_string()))?;
-        Ok(())
+        })
     }
 }
 
