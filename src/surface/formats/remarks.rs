@@ -3,6 +3,21 @@
 use super::length::length_unit;
 use crate::units::{Dimension, name_and_unit, parse_quantity};
 
+/// What comments begin with.
+const COMMENT: [char; 5] = ['#', '%', '/', ' ', '\t'];
+
+/// Names of heights in the head of a single column.
+const HEIGHTS: [&str; 8] = [
+    "z",
+    "h",
+    "height",
+    "heights",
+    "topography",
+    "topo",
+    "elevation",
+    "depth",
+];
+
 /// What comments say.
 #[derive(Clone, Default)]
 pub(super) struct Remarks {
@@ -12,7 +27,10 @@ pub(super) struct Remarks {
     pub unit: Option<f64>,
     /// Metres per unit of x and y of points with coordinates.
     lateral_unit: Option<f64>,
+    /// Of the header line.
     heads: Heads,
+    /// Of comments above the numbers, for each number of units the last.
+    comments: Vec<Heads>,
     /// The values of the last three comments of the form `name: value`, as a length and as a unit.
     last: [(Option<f64>, Option<f64>); 3],
 }
@@ -25,33 +43,40 @@ impl Remarks {
 
     /// Reads the heads of the columns, `x [um], y [um], z [nm]`.
     pub fn take_heads(&mut self, line: &str) {
-        self.heads = Heads {
-            units: units(line),
-            is_comment: false,
-            are_points: are_points(line),
-        };
+        self.heads = Heads::new(line);
     }
 
-    /// Reads a comment above the numbers, which may hold these heads.
+    /// Reads a comment above the numbers, which may hold these heads: how many columns there are is not known yet.
     pub fn take_comment_above(&mut self, comment: &str) {
-        let units = units(comment);
-        if !units.is_empty() {
-            self.heads = Heads {
-                units,
-                is_comment: true,
-                are_points: false,
-            };
+        let comment = comment.trim_start_matches(COMMENT).trim_end();
+        let heads = Heads::new(comment);
+        let count = heads.units.len();
+        // Many comments have one unit in brackets, `scan 5 (um)`.
+        if count == 0 || (count == 1 && !is_head_of_heights(comment)) {
+            return;
         }
+        self.comments.retain(|other| other.units.len() != count);
+        self.comments.push(heads);
     }
 
-    /// Whether the heads name x and y, so that the columns hold points.
-    pub fn names_points(&self) -> bool {
-        self.heads.are_points
+    /// Whether the heads of so many columns name x and y, so that the columns hold points.
+    pub fn names_points(&self, columns: usize) -> bool {
+        let of_columns = self.heads_with_units(columns);
+        self.heads.are_points || of_columns.is_some_and(|heads| heads.are_points)
+    }
+
+    /// The heads of so many columns, if each has a unit: the header's, or those of a comment.
+    fn heads_with_units(&self, columns: usize) -> Option<&Heads> {
+        let heads = match self.heads.units.is_empty() {
+            true => &self.comments[..],
+            false => std::slice::from_ref(&self.heads),
+        };
+        heads.iter().find(|heads| heads.units.len() == columns)
     }
 
     /// The units in the heads of so many columns, if each has one.
     fn column_units(&self, columns: usize) -> Option<&[f64]> {
-        Some(&self.heads.units[..]).filter(|units| units.len() == columns)
+        self.heads_with_units(columns).map(|heads| &heads.units[..])
     }
 
     /// Metres per unit of the numbers in so many columns; of a profile or points those of the last.
@@ -76,14 +101,13 @@ impl Remarks {
 
     /// Whether the heads give units of which none is that of the numbers.
     pub fn leaves_units(&self, columns: usize, has_places: bool) -> bool {
-        let is_head = !self.heads.is_comment || self.column_units(columns).is_some();
-        let is_used = self.number_unit(columns, has_places).is_some();
-        is_head && !self.heads.units.is_empty() && !is_used
+        let are_heads = !self.heads.units.is_empty() || self.column_units(columns).is_some();
+        are_heads && self.number_unit(columns, has_places).is_none()
     }
 
     /// Reads a comment: `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um`.
     pub fn take_comment(&mut self, comment: &str) {
-        let comment = comment.trim_start_matches(['#', '%', '/', ' ']);
+        let comment = comment.trim_start_matches(COMMENT);
         let Some((name, value)) = comment.split_once(':') else {
             return;
         };
@@ -117,16 +141,48 @@ impl Remarks {
 struct Heads {
     /// Metres in the units of length.
     units: Vec<f64>,
-    is_comment: bool,
     /// Whether the first two columns are named x and y.
     are_points: bool,
 }
 
-/// Metres in the units of length of a line of heads, each of which ends with its unit in brackets.
+impl Heads {
+    fn new(line: &str) -> Self {
+        Heads {
+            units: units(line),
+            are_points: are_points(line),
+        }
+    }
+}
+
+/// Whether a comment with one unit is the head of a column of heights: the unit stands in square brackets, but not behind a
+/// number, `scan 5 [um]`; or in brackets at the end behind a name of heights, `z (nm)`.
+fn is_head_of_heights(comment: &str) -> bool {
+    let Some(head) = heads(comment).find(|head| unit(head).is_some()) else {
+        return false;
+    };
+    let (name, _) = name_and_unit(head);
+    let mut words = name.split(|c: char| !c.is_alphanumeric());
+    let names_heights = words.any(|word| HEIGHTS.contains(&word.to_ascii_lowercase().as_str()));
+    let is_behind_number = name.ends_with(|c: char| c.is_ascii_digit() || c == '.');
+    match head.contains('[') {
+        true => names_heights || !is_behind_number,
+        false => names_heights && comment.ends_with(head),
+    }
+}
+
+/// Metres in the units of length of a line of heads.
 fn units(line: &str) -> Vec<f64> {
+    heads(line).filter_map(unit).collect()
+}
+
+/// The heads in a line, each of which ends with its unit in brackets.
+fn heads(line: &str) -> impl Iterator<Item = &str> {
     line.split_inclusive([']', ')'])
-        .filter_map(|head| length_unit(name_and_unit(head).1?))
-        .collect()
+}
+
+/// Metres in the unit of a head, if it is one of length.
+fn unit(head: &str) -> Option<f64> {
+    length_unit(name_and_unit(head).1?)
 }
 
 /// Whether the first two of the heads in a line are x and y.

@@ -347,6 +347,48 @@ fn heads_of_columns_state_units() {
     }
 }
 
+/// A comment with brackets is the heads of columns only if it has a unit for each.
+#[test]
+fn brackets_in_comments_are_no_heads_of_other_columns() {
+    let points = "0 0 1\n1 0 2\n0 1 3\n1 1 4\n";
+    for head in [
+        "# x [um], y [um], z [nm]\n# scan 5 (um)\n",
+        "# scan 5 (um)\n# x [um], y [um], z [nm]\n",
+        "# a (mm), b (mm), c (mm)\n# x [um], y [um], z [nm]\n# area 5 (um) x 5 (um)\n",
+        "# x [um], y [um], z [nm]\nx y z\n",
+    ] {
+        let map = read_map(format!("{head}{points}").as_bytes()).unwrap();
+        assert_eq!(map.size, Some(Size::Metres([2.0 * 1e-6; 2])), "{head}");
+        assert_eq!((map.unit, map.warnings.len()), (Some(1e-9), 0), "{head}");
+    }
+    // A header is nearer to the numbers.
+    let head = "# x [um], y [um], z [nm]\nx [mm] y [mm] z [um]\n";
+    let map = read_map(format!("{head}{points}").as_bytes()).unwrap();
+    assert_eq!(map.unit, Some(1e-6));
+    // Of one column.
+    for (comment, unit) in [
+        ("sample (A)", None),
+        ("scan 5 (um)", None),
+        ("scan 5 [um]", None),
+        ("height (nm) of a sample", None),
+        ("run[3] of sample (A)", None),
+        ("run[3], height (nm)", Some(1e-9)),
+        ("z (nm)", Some(1e-9)),
+        ("Height (nm) ", Some(1e-9)),
+        ("z(nm)", Some(1e-9)),
+        ("[nm]", Some(1e-9)),
+        ("Trace [nm]", Some(1e-9)),
+        ("z 2 [nm]", Some(1e-9)),
+    ] {
+        let map = read_map(format!("# {comment}\n1\n2\n3\n").as_bytes()).unwrap();
+        assert_eq!((map.unit, map.warnings.len()), (unit, 0), "{comment}");
+    }
+    let map = read_map(b"# x [mm], z [nm]\n# sample (A)\n0 2\n1 3\n2 4\n").unwrap();
+    assert_eq!((map.unit, map.lateral_unit), (Some(1e-9), Some(1e-3)));
+    let map = read_map(b"# Value units: pm\n# z (nm)\n1\n2\n").unwrap();
+    assert_eq!(map.unit, Some(1e-12));
+}
+
 /// Points that form no grid are refused where they are surely points, and else warned of.
 #[test]
 fn points_without_a_grid_are_told() {

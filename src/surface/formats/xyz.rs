@@ -91,7 +91,7 @@ pub(super) fn as_grid(
         Err(NoGrid::Twice(what)) => (what, rows >= NARROW),
         Err(NoGrid::Otherwise(what)) => (what, false),
     };
-    if are_points || text.remarks().names_points() {
+    if are_points || text.remarks().names_points(columns) {
         return Err(FileError::NotAGrid { what });
     }
     Ok(match rows >= NARROW {
