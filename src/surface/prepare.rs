@@ -71,8 +71,9 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
             Some(unit) => Size::Metres([length * unit; 2]),
             None => Size::LikeHeights([length; 2]),
         }),
-        (None, Some(Size::Metres(size))) => Some(Size::Metres([size[0].max(size[1]); 2])),
-        (None, size) => size,
+        (None, Some(Size::Metres([x, y]))) => Some(Size::Metres([x.max(y); 2])),
+        (None, Some(Size::LikeHeights([x, y]))) => Some(Size::LikeHeights([x.max(y); 2])),
+        (None, None) => None,
     };
     header.lateral_unit = None;
     (header.rows, header.columns) = (1, count);
@@ -400,6 +401,15 @@ mod tests {
         };
         let found = to_profile(places.into()).unwrap();
         assert_eq!(found.size, Some(Size::Metres([1.5 * 1e-3; 2])));
+        // Points on one line have pixels as wide as long; the profile is as wide as long.
+        for (sides, shape) in [([6.0, 1.5], [1, 4]), ([1.5, 6.0], [4, 1])] {
+            let line = Matrix {
+                size: Some(Size::LikeHeights(sides)),
+                ..Matrix::new(vec![3.0, 4.0, 6.0, 5.0], shape)
+            };
+            let found = to_profile(line.into()).unwrap();
+            assert_eq!(found.size, Some(Size::LikeHeights([6.0; 2])));
+        }
         // More lines, and more rows than are read at once.
         let many = (0..3 * PASSED).map(|at| at as f64).collect();
         let first = profile(many, [PASSED, 3]).unwrap();

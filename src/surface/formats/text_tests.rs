@@ -389,6 +389,32 @@ fn brackets_in_comments_are_no_heads_of_other_columns() {
     assert_eq!(map.unit, Some(1e-12));
 }
 
+/// Points on one line are one line of heights, not a map of three columns.
+#[test]
+fn named_points_on_one_line_are_a_line() {
+    for head in ["x,y,z", "# x [m], y [m], z [m]"] {
+        for count in [2, 3, 20] {
+            for along_y in [false, true] {
+                let point = |at: usize| match along_y {
+                    true => format!("5,{},{}\n", 2 * at, at * at),
+                    false => format!("{},5,{}\n", 2 * at, at * at),
+                };
+                let points: String = (0..count).map(point).collect();
+                let map = read_map(format!("{head}\n{points}").as_bytes()).unwrap();
+                let shape = if along_y { [count, 1] } else { [1, count] };
+                assert_eq!([map.rows, map.columns], shape, "{head}");
+                let heights: Vec<f64> = (0..count).map(|at| (at * at) as f64).collect();
+                assert_eq!(map.values, heights, "{head}");
+            }
+        }
+    }
+    // Its width is that of one pixel, in the unit of the places that differ.
+    let map = read_map(b"x [mm],y [um],z [nm]\n5,0,1\n5,2,2\n5,4,3\n").unwrap();
+    assert_eq!(map.size, Some(Size::Metres([2.0 * 1e-6, 6.0 * 1e-6])));
+    // Without names they may be heights.
+    assert_eq!(numbers("0 0 1\n1 0 2\n2 0 3\n3 0 4\n").1, 3);
+}
+
 /// Points that form no grid are refused where they are surely points, and else warned of.
 #[test]
 fn points_without_a_grid_are_told() {

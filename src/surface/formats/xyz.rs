@@ -59,7 +59,7 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
 
 /// What the lines of a text are if they may be points.
 pub(super) enum Points {
-    /// Points on a grid with at least two a side.
+    /// Points on a grid with at least two a side, or on one line if the heads of their columns name x and y.
     Grid(Map),
     /// Numbers of a map that is so narrow that they may be points; a warning says so.
     Likely(String),
@@ -77,7 +77,8 @@ pub(super) fn as_grid(
     opening: Opening,
 ) -> Result<Points, FileError> {
     let (rows, columns) = (numbers.rows, numbers.columns);
-    if !matches!(columns, 3 | 4) || rows < 4 {
+    let are_named = text.remarks().names_points(columns);
+    if !matches!(columns, 3 | 4) || (rows < 4 && !are_named) {
         return Ok(Points::Unlikely);
     }
     let found = match columns {
@@ -85,13 +86,14 @@ pub(super) fn as_grid(
         _ => Err(NoGrid::Otherwise(four_columns())),
     };
     let (what, are_points) = match found {
-        Ok(map) if map.rows > 1 && map.columns > 1 => return Ok(Points::Grid(map)),
+        // Points on one line are a line scan, for a profile; without names a map may have an even column and an equal one.
+        Ok(map) if are_named || (map.rows > 1 && map.columns > 1) => return Ok(Points::Grid(map)),
         Ok(_) => return Ok(Points::Unlikely),
         Err(NoGrid::Unread(error)) => return Err(error),
         Err(NoGrid::Twice(what)) => (what, rows >= NARROW),
         Err(NoGrid::Otherwise(what)) => (what, false),
     };
-    if are_points || text.remarks().names_points(columns) {
+    if are_points || are_named {
         return Err(FileError::NotAGrid { what });
     }
     Ok(match rows >= NARROW {
@@ -141,16 +143,10 @@ fn gridded(text: &Text, points: &Matrix, opening: Opening) -> Result<Map, NoGrid
     })?;
     // Pixels of a single line are taken as square.
     let steps = [x.step, y.step];
-    let step = |axis: usize| {
-        if steps[axis] > 0.0 {
-            steps[axis]
-        } else {
-            steps[1 - axis]
-        }
-    };
-    let sides = [step(0) * x.count as f64, step(1) * y.count as f64];
+    let [of_x, of_y] = [0, 1].map(|axis| if steps[axis] > 0.0 { axis } else { 1 - axis });
+    let sides = [steps[of_x] * x.count as f64, steps[of_y] * y.count as f64];
     let size = (sides[0] > 0.0).then(|| match text.remarks().lateral_units(3) {
-        Some(units) => Size::Metres([sides[0] * units[0], sides[1] * units[1]]),
+        Some(units) => Size::Metres([sides[0] * units[of_x], sides[1] * units[of_y]]),
         None => Size::LikeHeights(sides),
     });
     let warnings = match text.remarks().leaves_units(3, true) {
