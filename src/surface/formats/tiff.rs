@@ -142,7 +142,7 @@ fn missing_number(
         return Ok(None);
     };
     let text = value.into_string().map_err(broken)?;
-    let text = text.trim_matches(['\0', ' ']);
+    let text = text.trim_matches(|c: char| c == '\0' || c.is_whitespace());
     let Ok(number) = text.parse::<f64>() else {
         warnings.push(format!(
             "the file states {} as the number of missing pixels (GDAL_NODATA), which is no number and not used",
@@ -153,7 +153,11 @@ fn missing_number(
     let white: f64 = match bits {
         8 => u8::MAX.into(),
         16 => u16::MAX.into(),
-        32 => return Ok(Some((number as f32).into())),
+        // Programs state the least double for the least number of the image.
+        32 if number.is_finite() => {
+            let held = number.clamp(f32::MIN.into(), f32::MAX.into()) as f32;
+            return Ok(Some(held.into()));
+        }
         _ => return Ok(Some(number)),
     };
     let shades: Option<u16> = image
@@ -433,6 +437,29 @@ mod tests {
         assert_eq!(found.values[2..], [3.5, 4.0, 5.0, -6.0]);
         let found = whole(&image(32, &floats, false, &[(42113, b"none\0")])).unwrap();
         assert_eq!((found.values[1], found.warnings.len()), (-9999.0, 1));
+        // Programs end the number with a line end, or state one that the image cannot hold.
+        for text in [&b"-9999\n\0"[..], b" -9999 \r\n\0\0", b"\t-9999\0"] {
+            let found = whole(&image(32, &floats, false, &[(42113, text)])).unwrap();
+            assert!(found.values[1].is_nan() && found.warnings.is_empty());
+        }
+        for (text, held) in [
+            (&b"-1.7976931348623157e308\0"[..], f32::MIN),
+            (b"1.7976931348623157e308\0", f32::MAX),
+        ] {
+            let floats = [1.0, held, 3.5, 4.0, 5.0, -6.0].map(f32::to_le_bytes);
+            let bytes = image(32, floats.as_flattened(), false, &[(42113, text)]);
+            let found = whole(&bytes).unwrap();
+            assert!(found.values[1].is_nan() && found.warnings.is_empty());
+            assert_eq!(found.values[2..], [3.5, 4.0, 5.0, -6.0]);
+        }
+        // A shade is never less than 0.
+        let found = whole(&image(
+            8,
+            &[0, 1, 2, 3, 4, 5],
+            false,
+            &[(42113, b"-9999\0")],
+        ));
+        assert_eq!(found.unwrap().values[0], 0.0);
         // Of shades too, also where 0 is white.
         for is_white_zero in [false, true] {
             let missing: (u16, &[u8]) = (42113, b"200\0\0");
