@@ -158,7 +158,17 @@ fn turn(extension: &mut [f64], retraction: &mut [f64]) {
     };
     let is_nearer = |a: f64, b: f64, to: f64| (a - to).abs() < (b - to).abs();
     let (extends, retracts) = match (turns_at_end(extension), turns_at_end(retraction)) {
-        (Some(extends), Some(retracts)) => (extends, retracts),
+        (Some(extends), Some(retracts)) => {
+            // Where pull-off is late the end of the retraction is the less level one. The extension has no pull-off, so that
+            // it is right if the parts do not meet.
+            let there = if extends { last } else { first };
+            let (meets, other) = if retracts {
+                (end, begin)
+            } else {
+                (begin, end)
+            };
+            (extends, retracts != is_nearer(other, meets, there))
+        }
         (Some(extends), None) => {
             let there = if extends { last } else { first };
             (extends, is_nearer(end, begin, there))
@@ -222,8 +232,8 @@ mod tests {
         part.iter().rev().copied().collect()
     }
 
-    /// The order of each part is that of time whichever way it is stored: pressed, in net tension where the ramp turns, and
-    /// at the limit of the detector.
+    /// The order of each part is that of time whichever way it is stored: pressed, in net tension where the ramp turns, at
+    /// the limit of the detector, and with a pull-off just before the end.
     #[test]
     fn parts_are_put_in_the_order_of_time() {
         let pressed = part(|x| 5.0 * (x - 0.7).max(0.0));
@@ -237,10 +247,21 @@ mod tests {
         });
         // After a jump at the end of the extension the retraction pulls further and lets go.
         let released = part(|x| if x < 0.3 { -0.8 - 2.0 * x } else { 0.0 });
+        // Pull-off in the last tenth of the retraction changes the deflection more there than contact does where it begins.
+        let late = part(|x| {
+            if x < 0.94 {
+                (1.0 - 2.0 * x).max(-0.7)
+            } else {
+                0.0
+            }
+        });
+        assert_eq!(turns_at_end(&late), Some(true));
+        let touched = part(|x| (5.0 * (x - 0.8)).max(0.0));
         for (extension, retraction) in [
             (pressed.clone(), reversed(&pressed)),
             (limited.clone(), reversed(&limited)),
             (jumped, released),
+            (touched, late),
         ] {
             for turned in [[false, false], [true, false], [false, true], [true, true]] {
                 let [mut first, mut second] = [(&extension, turned[0]), (&retraction, turned[1])]
