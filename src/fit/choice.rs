@@ -4,14 +4,16 @@ use std::path::Path;
 
 use super::advice::Advice;
 use super::curve_file::{ForceCurve, name};
+use super::deviations::Uncertainties;
 use super::error::FitError;
-use super::estimate::{ModelFit, ProfilePoint, Uncertainties, fit_model};
+use super::estimate::{ModelFit, fit_model};
 use super::hysteresis;
 use super::indenter::Indenter;
 use super::inversion::{Inversion, invert_curve};
 use super::law_error::{LawError, law_error};
 use super::measured::{Freedom, Measured};
 use super::model::{Model, Parameters};
+use super::profile::ProfilePoint;
 use super::relaxation::Relaxation;
 use super::signs::check_signs;
 use super::slope::{self, BaselineSlope};
@@ -36,6 +38,9 @@ pub const UNCERTAIN: f64 = 0.3;
 /// If the greatest tension lies within this share of the approach at its closest end, a curve
 /// without compression shows no contact.
 const CLOSEST: f64 = 0.05;
+/// Noises above a baseline with a slope, and share of the range of the forces as measured, that a force of compression exceeds.
+const PRESSED_NOISES: f64 = 5.0;
+const PRESSED_SHARE: f64 = 1e-9;
 /// Most iterations of model choice and Tabor number.
 const ROUNDS: usize = 4;
 
@@ -133,7 +138,7 @@ pub fn fit_curve(
         if !zero_known {
             return Err(FitError::NoBaseline {
                 path: name(path),
-                points: free_points(&measured, &fits[chosen]),
+                points: free_points(&fits[chosen]),
             });
         }
         Some(slope::level(&mut measured, &mut fits, chosen, first))
@@ -157,8 +162,8 @@ pub fn fit_curve(
         fits[chosen].parameters.force_offset,
     ));
     let stiff = fits[chosen].parameters.contact_modulus;
-    let (least, greatest) = measured.extremes();
-    let pressed = greatest.force > measured.baseline();
+    let (least, _) = measured.extremes();
+    let pressed = is_pressed(curve, &measured, &fits);
     // If the tension grows up to the closest point there may be attraction without contact.
     let grows = measured.closest() - least.approach < CLOSEST * measured.approach_span;
     let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
@@ -223,21 +228,29 @@ fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
 
 /// Whether a fit with a free baseline has points without force; true if the baseline is known.
 fn knows_zero(measured: &Measured, fit: &ModelFit) -> bool {
-    !measured.freedom.force_offset || free_points(measured, fit) >= ZERO_POINTS
+    !measured.freedom.force_offset || free_points(fit) >= ZERO_POINTS
 }
 
 /// The number of points where no force acts.
-fn free_points(measured: &Measured, fit: &ModelFit) -> usize {
-    let touch = fit.parameters.approach_offset;
-    if fit.model.adheres() {
-        fit.interacting
-            .iter()
-            .filter(|interacting| !**interacting)
-            .count()
-    } else {
-        let separated = |approach: &&f64| **approach < touch;
-        measured.approaches.iter().filter(separated).count()
+fn free_points(fit: &ModelFit) -> usize {
+    let free = fit.interacting.iter().filter(|interacting| !**interacting);
+    free.count()
+}
+
+/// Whether the greatest force is one of compression. A straight line that is taken out as the slope of the baseline leaves noise and
+/// rounding alone.
+fn is_pressed(curve: &ForceCurve, measured: &Measured, fits: &[ModelFit]) -> bool {
+    let above = measured.extremes().1.force - measured.baseline();
+    if !measured.freedom.baseline_slope {
+        return above > 0.0;
     }
+    let noise = fits
+        .iter()
+        .map(|fit| fit.noise)
+        .fold(f64::INFINITY, f64::min);
+    let forces = || curve.samples.iter().map(|sample| sample.force);
+    let span = forces().fold(f64::NEG_INFINITY, f64::max) - forces().fold(f64::INFINITY, f64::min);
+    above > (PRESSED_NOISES * noise).max(PRESSED_SHARE * span)
 }
 
 /// Whether the residuals of a fit are correlated. They alternate where rows of extension and retraction are mixed.

@@ -5,11 +5,14 @@ use std::f64::consts::PI;
 use nalgebra::DVector;
 
 use super::curve_file::Sample;
-use super::deviations::{at_zero, correlations, uncertainties, variance_of};
+use super::deviations::{
+    BaselineError, Uncertainties, at_zero, correlations, credible, uncertainties, variance_of,
+};
 use super::indenter::Indenter;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::{Freedom, Measured};
 use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
+use super::profile::{MOST_RISE, ProfilePoint, widen};
 use super::start::{beside_the_fold, scale_grid, starts};
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
@@ -30,37 +33,9 @@ const GRID_STARTS: usize = 3;
 /// Most moves from one basin to the next, and the share by which the next must lie lower.
 const MOST_BASINS: usize = 8;
 const LOWER: f64 = 1e-6;
-/// Rise of the sum of squares, in variances of the noise, up to which a state contributes to the
-/// uncertainty: three standard deviations.
-pub(super) const MOST_RISE: f64 = 9.0;
-/// Standard deviation of ln lambda from which a parabola around the minimum is meaningless, and the
-/// profile over lambda is used.
-const FLAT_PROFILE: f64 = 0.5;
 /// Least sum of squares with which a fit is credited, in squares of the force range a point. Below
 /// it are rounding and interpolation errors.
 const FLOOR: f64 = 1e-14;
-
-/// Uncertainties: one standard deviation each, `None` if the curve does not determine the number.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-#[non_exhaustive]
-pub struct Uncertainties {
-    /// Of E*, Pa.
-    pub contact_modulus: Option<f64>,
-    /// Of w, J/m^2.
-    pub work_of_adhesion: Option<f64>,
-    /// Of lambda.
-    pub maugis_parameter: Option<f64>,
-    /// Of the range, w over the tension, m.
-    pub range: Option<f64>,
-    /// Of the tension of the cohesive zone, Pa.
-    pub peak_tension: Option<f64>,
-    /// Of the approach at first touch, m.
-    pub approach_offset: Option<f64>,
-    /// Of the baseline force, N.
-    pub force_offset: Option<f64>,
-    /// Of the slope of the baseline, N/m.
-    pub baseline_slope: Option<f64>,
-}
 
 /// A model with its best-fitting numbers.
 #[derive(Clone, Debug)]
@@ -94,33 +69,10 @@ pub struct ModelFit {
     pub interacting: Vec<bool>,
     /// Other states of the model, each with the least sum of squares at its lambda.
     pub(super) profile: Vec<ProfilePoint>,
+    /// Errors of the fitted baseline.
+    pub(super) baseline_error: BaselineError,
     /// Variance of the residuals, corrected for their correlation, N^2.
     pub(super) variance: f64,
-}
-
-/// The best numbers at one lambda, with standard deviations at that lambda.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct ProfilePoint {
-    pub parameters: Parameters,
-    pub uncertainties: Uncertainties,
-    /// Sum of squares of the residuals, N^2.
-    pub sum_of_squares: f64,
-}
-
-impl ProfilePoint {
-    /// Standard deviation of a number at `value` implied by this state: a state whose sum of
-    /// squares is larger by `rise` variances implies a distance of `sqrt(rise)` deviations, as for
-    /// a parabola. `None` if the state is ruled out.
-    pub(super) fn deviation(
-        &self,
-        value: f64,
-        number: impl Fn(&Parameters, &Uncertainties) -> (f64, Option<f64>),
-        rise: f64,
-    ) -> Option<f64> {
-        let (other, own) = number(&self.parameters, &self.uncertainties);
-        (rise <= MOST_RISE)
-            .then(|| ((other - value) / rise.max(1.0).sqrt()).hypot(own.unwrap_or(0.0)))
-    }
 }
 
 impl ModelFit {
@@ -464,36 +416,6 @@ fn best_of_grid(
     fit_at.into_iter().map(|(_, start)| start).collect()
 }
 
-/// Takes the uncertainties from the profile over lambda if lambda is so uncertain that a parabola
-/// around the minimum is meaningless.
-fn widen(fit: &mut ModelFit) {
-    let parameters = fit.parameters;
-    let known = fit.uncertainties.maugis_parameter;
-    let parabola = known.is_some_and(|known| known < FLAT_PROFILE * parameters.maugis_parameter);
-    type Pick = fn(&mut Uncertainties) -> &mut Option<f64>;
-    type Value = fn(&Parameters) -> f64;
-    let numbers: [(Pick, Value); 4] = [
-        (|u| &mut u.work_of_adhesion, |p| p.work_of_adhesion),
-        (|u| &mut u.contact_modulus, |p| p.contact_modulus),
-        (|u| &mut u.maugis_parameter, |p| p.maugis_parameter),
-        (|u| &mut u.approach_offset, |p| p.approach_offset),
-    ];
-    for (pick, value) in numbers {
-        let spread = fit.profile.iter().filter_map(|point| {
-            let rise = (point.sum_of_squares - fit.sum_of_squares) / fit.variance;
-            let own = |p: &Parameters, u: &Uncertainties| (value(p), *pick(&mut u.clone()));
-            point.deviation(value(&parameters), own, rise)
-        });
-        let Some(spread) = spread.reduce(f64::max) else {
-            continue;
-        };
-        let deviation = pick(&mut fit.uncertainties);
-        // A number that does not affect the curve (a fixed offset, a lambda at its limit) is left
-        // as it is.
-        *deviation = deviation.map(|known| if parabola { known.max(spread) } else { spread });
-    }
-}
-
 /// Numbers and their uncertainties at a minimum.
 fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let measured = search.measured;
@@ -503,11 +425,18 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let degrees = points.saturating_sub(free).max(1);
     let sum = minimum.sum();
     let (autocorrelation, variance) = variance_of(&minimum.residuals, degrees, &measured.segments);
-    let covariance = at_zero(search, covariance(&minimum.jacobian, variance));
+    let by_middle = credible(covariance(&minimum.jacobian, variance));
+    let baseline_error = BaselineError::new(search, &by_middle);
+    let covariance = at_zero(search, by_middle);
     let span = measured.force_span;
-    let interacting = search
-        .choose(&minimum.variables)
-        .map_or_else(Vec::new, |(choice, _)| choice);
+    let interacting = if search.tip.model.adheres() {
+        let chosen = search.choose(&minimum.variables);
+        chosen.map_or_else(Vec::new, |(choice, _)| choice)
+    } else {
+        // It interacts from first touch on. The place of a transition would be that of chance.
+        let touches = |approach: &f64| *approach >= parameters.approach_offset;
+        measured.approaches.iter().map(touches).collect()
+    };
     let fitted = measured
         .samples
         .iter()
@@ -531,6 +460,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         fitted,
         interacting,
         profile: Vec::new(),
+        baseline_error,
         variance: variance * span * span,
     }
 }

@@ -37,7 +37,7 @@ pub struct Inversion {
     pub stiffness: f64,
     /// Work of adhesion, J/m^2.
     pub work_of_adhesion: f64,
-    /// Its standard deviation, J/m^2.
+    /// Its standard deviation, J/m^2; NaN where the curve does not determine the baseline, as in the next.
     pub work_uncertainty: f64,
     /// Contact modulus, Pa.
     pub contact_modulus: f64,
@@ -45,18 +45,26 @@ pub struct Inversion {
     pub modulus_uncertainty: f64,
 }
 
-/// The inversion of a curve, with force offset and noise of `fit`; `None` if the tip is no sphere, or the curve has no
-/// tension or too few points of compression on unloading.
+/// The inversion of a curve, with force offset and noise of `fit`; `None` if the tip is no sphere, the model does not adhere, or the
+/// curve has no tension or too few points of compression on unloading.
 pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
     let radius = measured.indenter.radius()?;
+    if !fit.model.adheres() {
+        // The least force of many points of noise would be a pull-off.
+        return None;
+    }
     let zero = fit.parameters.force_offset;
-    let zero_error = fit.uncertainties.force_offset.unwrap_or(0.0);
     let most = measured.extremes().1.force - zero;
     // The last unloading segment, else the last loading segment.
     let unloading = measured.segments.iter().rfind(|segment| !segment.loading);
     let segment = unloading.or(measured.segments.last())?;
-    let (least, least_error) = least_force(measured, fit, segment)?;
+    let (least, least_error, at) = least_force(measured, fit, segment)?;
     let pull_off = zero - least;
+    // Of a baseline with a slope: its force is less certain away from the middle of the curve, and the slope is part of the
+    // stiffness.
+    let zero_error = fit.baseline_error.of_force(at);
+    let tilt_error = fit.baseline_error.of_slope();
+    let is_known = zero_error.is_finite() && tilt_error.is_finite();
     if pull_off <= BEYOND_NOISE * fit.noise || most <= 0.0 {
         return None;
     }
@@ -77,14 +85,21 @@ pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
     let sphere = invert(pull_off, stiffness)?;
     let moved = [
         invert(
-            pull_off + (fit.noise * least_error).hypot(zero_error),
+            pull_off + (fit.noise * least_error).hypot(zero_error.max(0.0)),
             stiffness,
         )?,
-        invert(pull_off, stiffness + fit.noise * slope_error)?,
+        invert(
+            pull_off,
+            stiffness + (fit.noise * slope_error).hypot(tilt_error.max(0.0)),
+        )?,
     ];
     let spread = |of: fn(&Sphere) -> f64| {
         let parts = moved.iter().map(|other| (of(other) - of(&sphere)).powi(2));
-        parts.sum::<f64>().sqrt()
+        if is_known {
+            parts.sum::<f64>().sqrt()
+        } else {
+            f64::NAN
+        }
     };
     Some(Inversion {
         pull_off_force: pull_off,
@@ -97,9 +112,9 @@ pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
     })
 }
 
-/// Least force in contact, and its standard deviation in those of the noise: of a parabola through the points about it, since the
+/// Least force in contact, its standard deviation in those of the noise, and about its approach: of a parabola through the points about it, since the
 /// least of many points is low by its noise. Where too few points lie there it is the least point.
-fn least_force(measured: &Measured, fit: &ModelFit, segment: &Segment) -> Option<(f64, f64)> {
+fn least_force(measured: &Measured, fit: &ModelFit, segment: &Segment) -> Option<(f64, f64, f64)> {
     let contact: Vec<usize> = segment
         .points
         .clone()
@@ -124,7 +139,8 @@ fn least_force(measured: &Measured, fit: &ModelFit, segment: &Segment) -> Option
     };
     let least = near.iter().map(|sample| sample.force);
     let least = least.fold(f64::INFINITY, f64::min);
-    Some(parabola.map_or((least, 1.0), |parabola| parabola.least()))
+    let (least, error) = parabola.map_or((least, 1.0), |parabola| parabola.least());
+    Some((least, error, centre))
 }
 
 /// A parabola through points by least squares.
@@ -208,7 +224,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::fit::{Calibration, ForceCurve, Freedom, fit_curve};
+    use crate::fit::{Calibration, ForceCurve, Freedom, Model, fit_curve};
 
     const RADIUS: f64 = 10e-6;
     const SPAN: f64 = 3e-6;
@@ -295,6 +311,54 @@ mod tests {
             work.abs() < most && modulus.abs() < most,
             "{work} {modulus}"
         );
+    }
+
+    /// A sphere without adhesion has no pull-off, and touches where the model does. Its noise gave w = 0.7 +- 0.2 mJ/m^2.
+    #[test]
+    fn noise_is_no_pull_off() {
+        let tiny = Sphere::new(RADIUS, 5e6, 1e-9).unwrap();
+        // A noise of 50 nN: the adhesion is nothing.
+        let result = fitted(unloaded(&tiny, 1e6, 1));
+        assert_eq!(result.best().model, Model::Hertz);
+        assert_eq!(result.inversion, None);
+        let touch = result.best().parameters.approach_offset;
+        for (at, sample) in result.measured.samples.iter().enumerate() {
+            assert_eq!(result.best().interacting[at], sample.approach >= touch);
+        }
+    }
+
+    /// The same curve on a tilted baseline has the same uncertainties wherever approach 0 lies: that of w was 40 times as large at
+    /// 0.1 mm.
+    #[test]
+    fn a_shifted_curve_has_the_same_uncertainties() {
+        let sphere = Sphere::new(RADIUS, 5e6, 0.05).unwrap();
+        let [near, far] = [0.0, 1e-4].map(|shift| {
+            let mut samples = unloaded(&sphere, 0.01, 5);
+            for sample in &mut samples {
+                sample.force += 0.3 * sample.approach + 1e-7;
+                sample.approach += shift;
+            }
+            let curve = ForceCurve {
+                samples,
+                ..ForceCurve::default()
+            };
+            let freedom = Freedom {
+                force_offset: true,
+                baseline_slope: true,
+                ..free()
+            };
+            let result = fit_curve(&curve, Path::new("shifted"), RADIUS, freedom).unwrap();
+            let deviation = result.best().baseline_error.of_slope();
+            (result.inversion.unwrap(), deviation)
+        });
+        let same = |of: fn(&Inversion) -> f64| {
+            approx::assert_relative_eq!(of(&near.0), of(&far.0), max_relative = 1e-3);
+        };
+        same(|found| found.work_uncertainty);
+        same(|found| found.modulus_uncertainty);
+        // E* goes with the stiffness to the power 3/2, about, at a fixed pull-off.
+        let tilt = near.1 / near.0.stiffness * near.0.contact_modulus;
+        assert!(near.0.modulus_uncertainty > tilt, "{near:?}");
     }
 
     #[test]

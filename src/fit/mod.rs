@@ -32,6 +32,7 @@ pub mod model;
 mod nanoscope;
 #[cfg(feature = "images")]
 mod picture;
+mod profile;
 mod relaxation;
 mod report;
 mod request;
@@ -44,8 +45,9 @@ pub use calibration::Calibration;
 pub use choice::{FitResult, fit_curve};
 pub use columns::{ColumnChoice, CurveColumns, CurveQuantity};
 pub use curve_file::{ForceCurve, Sample};
+pub use deviations::Uncertainties;
 pub use error::FitError;
-pub use estimate::{ModelFit, Uncertainties};
+pub use estimate::ModelFit;
 pub use headline::headline;
 pub use indenter::Indenter;
 #[doc(hidden)]

@@ -162,11 +162,7 @@ fn turn(extension: &mut [f64], retraction: &mut [f64]) {
             // Where pull-off is late the end of the retraction is the less level one. The extension has no pull-off, so that
             // it is right if the parts do not meet.
             let there = if extends { last } else { first };
-            let (meets, other) = if retracts {
-                (end, begin)
-            } else {
-                (begin, end)
-            };
+            let (meets, other) = if retracts { (end, begin) } else { (begin, end) };
             (extends, retracts != is_nearer(other, meets, there))
         }
         (Some(extends), None) => {

@@ -14,8 +14,8 @@ use super::choice::FitResult;
 use super::curve_file::{ForceCurve, name};
 use super::deviations::variance_of;
 use super::error::FitError;
-use super::estimate::MOST_RISE;
 use super::least_squares::{Problem, covariance, minimise};
+use super::profile::MOST_RISE;
 use super::segments::Segment;
 use crate::units::format_si;
 

@@ -194,6 +194,30 @@ mod tests {
         }
     }
 
+    /// A straight line without contact, exact or with noise, is refused. The exact one had w = 1e-18 J/m^2.
+    #[test]
+    fn a_line_is_no_contact() {
+        for noise in [0.0, 1e-8] {
+            let mut curve = sphere(60, noise, 5);
+            for sample in &mut curve.samples {
+                let contact = 4.0 / 3.0 * MODULUS * RADIUS.sqrt();
+                sample.force -= contact * sample.approach.max(0.0).powf(1.5);
+            }
+            let freedom = Freedom {
+                approach_offset: true,
+                force_offset: true,
+                baseline_slope: true,
+                range: None,
+            };
+            let found = fit_curve(&curve, Path::new("line"), RADIUS, freedom);
+            let refused = matches!(
+                found,
+                Err(FitError::NoCompression { .. } | FitError::NoBaseline { .. })
+            );
+            assert!(refused, "{noise}: {found:?}");
+        }
+    }
+
     /// Far from approach 0 the baseline there has the uncertainty of the slope times the distance.
     #[test]
     fn the_offset_at_a_distant_zero_has_the_uncertainty_of_the_slope() {
