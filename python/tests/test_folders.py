@@ -105,6 +105,28 @@ def test_a_path_that_begins_with_a_hyphen_is_no_option(tmp_path, monkeypatch):
     Path("-scene.toml").write_text(tabor.Scene(SCENE).to_toml())
     found = tabor.compare("-scene.toml", "-x")
     assert found.folder == Path("-x") and len(found["compare"]) > 0
+    assert tabor.Scene.new("sphere", "-new").path_of_file == tmp_path / "-new" / "scene.toml"
+
+
+def test_a_scene_stays_as_it_was_read(tmp_path):
+    np.save(tmp_path / "map.npy", np.eye(32) * 1e-9)
+    np.save(tmp_path / "other.npy", np.eye(32) * 2e-9)
+    tables = {**SCENE, "surface": [{"kind": "file", "path": "map.npy", "unit": "m"}], "grid": {"size": "4 um"}, "output": {}}
+    del tables["adhesion"]
+    file = tmp_path / "scene.toml"
+    tabor.Scene(tables).write(file)
+    scenes = [tabor.Scene.read(file, overrides) for overrides in (None, {"surface.0.path": "other.npy"}, {"surface": tables["surface"]})]
+    said = [scene.check() for scene in scenes]
+    assert "100 MPa" in said[0]
+    tabor.Scene({**tables, "solid": {"contact_modulus": "7 GPa"}}).write(file)
+    assert "7 GPa" in tabor.Scene.read(file).check()
+    assert [scene.check() for scene in scenes] == said
+    file.unlink()
+    assert [scene.check() for scene in scenes] == said
+    with pytest.raises(tabor.TaborError, match="none.npy"):
+        tabor.compare(scenes[0], tmp_path / "none", overrides={"surface.0.path": "none.npy"})
+    found = tabor.compare(scenes[0], tmp_path / "compared", overrides={"surface.0.path": "other.npy"})
+    assert len(found["compare"]) > 0
 
 
 def test_a_study_of_a_wrong_scene_says_what_is_wrong(tmp_path):
@@ -188,6 +210,8 @@ def test_tables_stand_in_place_of_those_of_a_file(tmp_path):
     loading = {**SCENE["loading"], "path": other["loading.path"]}
     expected = {**tables, **{key: value for key, value in other.items() if key != "loading.path"}, "loading": loading}
     assert read.resolved == tabor.Scene(expected).resolved
+    # A text stays a text.
+    assert tabor.Scene.read(tmp_path / "scene.toml", {"title": "2024"}).resolved["title"] == "2024"
     other = {key: value for key, value in other.items() if key not in ("surface", "friction")}
     studies = [
         tabor.compare(SCENE, tmp_path / "given", overrides=other),
@@ -198,6 +222,8 @@ def test_tables_stand_in_place_of_those_of_a_file(tmp_path):
     np.testing.assert_array_equal(given, own)
     for wrong, words in (
         ({"adhesion": {"range": {1, 2}}}, r'^overrides\["adhesion"\].range: .* not set'),
+        ({"solid.contact_modulus": "5"}, 'solid.contact_modulus: "5" has no unit'),
+        ({"grid.points=8": 16}, r'^overrides\["grid.points=8"\]: a key has no =; give its value behind it'),
         ({"surface": [{"radius": float("nan")}]}, r'^overrides\["surface"\].0.radius: nan is no finite number'),
     ):
         with pytest.raises(tabor.SceneError, match=words):

@@ -31,6 +31,9 @@ def contact(**more):
         (lambda: contact(threads=10**9), ValueError, "threads: a count from 1 to 1024"),
         (lambda: contact(solid="steel"), ValueError, "solid: a mapping"),
         (lambda: contact(loading=[]), ValueError, "loading: a mapping"),
+        (lambda: contact(solid={"contact_modulus": 1e8}), ValueError, "^contact_modulus: given as an argument and in solid; give one$"),
+        (lambda: contact(spring=1, loading={"control": "approach", "path": [0], "spring": 1}), ValueError, "^spring: given as an argument and in loading; give one$"),
+        (lambda: contact(spring=1, loading={"control": "force", "path": [1e-9, 2e-9]}), ValueError, "^spring: a spring needs a prescribed far end; take approach"),
         (lambda: contact(hardness=np.inf), ValueError, "^hardness: inf is no finite number"),
         (lambda: contact(title="\ud800"), ValueError, "title: this is no text"),
         (lambda: contact(output={"fields": {1, 2}}), ValueError, r'output\["fields"\]: .* not set'),
@@ -74,6 +77,23 @@ def contact(**more):
 def test_errors_name_the_argument(call, kind, words):
     with pytest.raises(kind, match=words):
         call()
+
+
+def test_tables_beside_arguments():
+    given = tabor.Contact(ROUGH, "4 um", young_modulus="100 MPa", solid={"poisson_ratio": 0.3, "young_modulus": None})
+    assert given.resolved == tabor.Contact(ROUGH, "4 um", young_modulus="100 MPa", poisson_ratio=0.3).resolved
+    loading = {"path": [0, 1e-9]}
+    assert contact(spring=1, loading=loading).resolved["loading"]["control"] == "approach"
+    # A Scene of them says the same.
+    tables = {
+        "grid": {"points": 32, "size": "4 um"},
+        "solid": {"contact_modulus": "100 MPa"},
+        "surface": [{"kind": "flat"}],
+        "adhesion": {"law": "exponential", "work_of_adhesion": 0.01, "range": "20 nm", "map": {"pattern": "checker", "period": "1 um", "low": 0, "high": 1}},
+        "loading": {"control": "pressure", "path": [0]},
+    }
+    with pytest.raises(tabor.SceneError, match="^adhesion_map: given as an argument and as map in adhesion; give one$"):
+        tabor.Scene(tables, adhesion_map=np.ones((32, 32)))
 
 
 def test_loads_come_from_anything_that_counts():

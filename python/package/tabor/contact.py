@@ -110,7 +110,8 @@ class Contact(Scene):
         heights are, and a mapping is a pattern:
         ``{"pattern": "checker", "period": "1 um", "low": 0, "high": 1}``.
     spring : number or text, optional
-        Stiffness of a spring between the prescribed approach and the body, N/m.
+        Stiffness of a spring between the prescribed approach and the body, N/m. The control of `loading` is then
+        "approach", and no other one.
     tolerance, max_iterations : number, optional
         When a solve ends.
     precision : {"auto", "double", "mixed", "single"}, optional
@@ -118,7 +119,7 @@ class Contact(Scene):
     threads : int, optional
         Threads of the processor.
     solid : mapping, optional
-        Further keys of ``[solid]``.
+        Further keys of ``[solid]``. One that is given as an argument too is refused, as is `spring` in `loading`.
     loading : mapping, optional
         The keys of ``[loading]``, for `run` and for `path` without loads.
     **tables
@@ -205,23 +206,25 @@ class Contact(Scene):
             surface = [{"kind": "flat"}]
         times = rate is not None or relaxation is not None or (solid or {}).get("relaxation") is not None
         instant = {"start": 0.0, "ramp": [{"hold": 1.0, "steps": 1}]} if times else {"path": [0.0]}
-        loading = loading or {"control": control_at(boundary), **instant}
+        control = control_at(boundary) if spring is None else "approach"
+        loading = loading or {"control": control, **instant}
         if spring is not None:
-            loading = {**loading, "control": "approach", "spring": spring}
+            # A control of the author's stays: a spring refuses all but one.
+            loading = _joined("loading", {"control": control, **loading}, {"spring": spring})
+        of_solid = {
+            "contact_modulus": contact_modulus,
+            "young_modulus": young_modulus,
+            "poisson_ratio": poisson_ratio,
+            "counter_young_modulus": counter_young_modulus,
+            "counter_poisson_ratio": counter_poisson_ratio,
+            "thickness": thickness,
+            "base": base,
+            "hardness": hardness,
+            "relaxation": relaxation,
+        }
         scene = {
             "grid": grid,
-            "solid": {
-                "contact_modulus": contact_modulus,
-                "young_modulus": young_modulus,
-                "poisson_ratio": poisson_ratio,
-                "counter_young_modulus": counter_young_modulus,
-                "counter_poisson_ratio": counter_poisson_ratio,
-                "thickness": thickness,
-                "base": base,
-                "hardness": hardness,
-                "relaxation": relaxation,
-                **(solid or {}),
-            },
+            "solid": _joined("solid", solid or {}, of_solid),
             "surface": surface,
             "adhesion": adhesion,
             "loading": loading,
@@ -229,6 +232,15 @@ class Contact(Scene):
             **tables,
         }
         self._of_tables(scene, Wording(CONTACT | names), values, adhesion_map, threads)
+
+
+def _joined(name: str, table: Mapping[str, Any], arguments: Mapping[str, Any]) -> dict[str, Any]:
+    """A table that was given as `name` with the arguments that are keys of it too."""
+    given = {key: value for key, value in arguments.items() if value is not None}
+    for key in given:
+        if table.get(key) is not None:
+            raise SceneError(f"{key}: given as an argument and in {name}; give one")
+    return {**table, **given}
 
 
 def _refuse_no_file(path: str | os.PathLike[str], argument: str) -> None:

@@ -85,7 +85,7 @@ class Scene:
     Attributes
     ----------
     path_of_file : Path or None
-        The file that the scene was read from.
+        The file that the scene was read from. The scene stays as it was read where the file changes later.
     """
 
     def __init__(
@@ -96,6 +96,9 @@ class Scene:
         adhesion_map: Any = None,
         threads: int | None = None,
     ) -> None:
+        adhesion = tables.get("adhesion") if isinstance(tables, Mapping) else None
+        if adhesion_map is not None and isinstance(adhesion, Mapping) and adhesion.get("map") is not None:
+            raise SceneError("adhesion_map: given as an argument and as map in adhesion; give one")
         self._of_tables(tables, Wording({}, in_python=False), heights, adhesion_map, threads)
 
     def _of_tables(
@@ -134,7 +137,8 @@ class Scene:
         path : path
             The TOML file.
         overrides : mapping, optional
-            Values in place of the file's, by dotted keys: ``{"grid.points": 128}``. A mapping stands in place of the
+            Values in place of the file's, by dotted keys: ``{"grid.points": 128}``, as in tables: a number in SI units is
+            a number, and a text has its unit, ``{"solid.contact_modulus": "5 GPa"}``. A mapping stands in place of the
             whole table: ``{"adhesion": {"law": "exponential", ...}}``.
         threads : int, optional
             Threads of the processor.
@@ -169,7 +173,7 @@ class Scene:
 
     @property
     def _overrides(self) -> list[tuple[str, str]]:
-        """Values in place of its file's, by dotted keys, in the words of the command line."""
+        """Values in place of its file's, by dotted keys, as TOML writes them."""
         return list(self._source[3])
 
     @property
@@ -223,6 +227,7 @@ class Scene:
         folder : path
             Where ``scene.toml`` is written; one that is there already is kept, and refused.
         """
+        from .disk import operand
         from .program import call
 
         if kind not in KINDS:
@@ -230,7 +235,7 @@ class Scene:
 
             near = "".join(f"; did you mean {name!r}?" for name in get_close_matches(str(kind), KINDS, 1))
             raise SceneError(f"kind: one of {', '.join(KINDS)}, not {kind!r}{near}")
-        call(["new", kind, os.fspath(folder)], True)
+        call(["new", kind, operand(folder)], True)
         return cls.read(Path(folder) / "scene.toml")
 
     def surface(self) -> tuple[Array, tuple[float, float]]:

@@ -71,12 +71,12 @@ def compare(scene: Any, folder: str | os.PathLike[str], *, overrides: Mapping[st
     folder : path
         Where ``compare.csv`` and ``compare.png`` are written.
     overrides : mapping, optional
-        Values in place of the scene's, by dotted keys.
+        Values in place of the scene's, by dotted keys, as `Scene.read` takes them.
     quiet : bool
         Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
-    with scene_on_disk(scene) as (path, words, tell):
-        call(["compare", path, out_word(folder), *words, *set_words(overrides)], quiet, tell)
+    with scene_on_disk(scene, overrides) as (path, words, tell):
+        call(["compare", path, out_word(folder), *words], quiet, tell)
     return Study(folder)
 
 
@@ -99,15 +99,15 @@ def accuracy(
     budget : number or text
         How long it may take, s, or such as "5 min".
     overrides : mapping, optional
-        Values in place of the scene's, by dotted keys.
+        Values in place of the scene's, by dotted keys, as `Scene.read` takes them.
     quiet : bool
         Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
     seconds = si(budget, "time", "budget")
     if seconds <= 0:
         raise SceneError("budget: must be more than zero")
-    with scene_on_disk(scene) as (path, words, tell):
-        call(["accuracy", path, out_word(folder), f"--budget={seconds!r} s", *words, *set_words(overrides)], quiet, tell)
+    with scene_on_disk(scene, overrides) as (path, words, tell):
+        call(["accuracy", path, out_word(folder), f"--budget={seconds!r} s", *words], quiet, tell)
     return Study(folder)
 
 
@@ -139,7 +139,7 @@ def sweep(
     merge : list of folders, optional
         Solves nothing, and joins what is finished in the folder and in these.
     overrides : mapping, optional
-        Values in place of the scene's, by dotted keys.
+        Values in place of the scene's, by dotted keys, as `Scene.read` takes them.
     quiet : bool
         Whether what the command line says is held back; of it warnings are `TaborWarning`.
     """
@@ -152,7 +152,7 @@ def sweep(
     if merge is not None:
         options += ["--merge", *(operand(each) for each in merge)]
     with contextlib.ExitStack() as until_done:
-        words: list[str] = []
+        words = set_words(overrides)
         tell: Tell = str
         if isinstance(study, Mapping):
             tables = dict(study)
@@ -160,7 +160,7 @@ def sweep(
                 if isinstance(tables["scene"], Scene) and tables["scene"].has_arrays:
                     words_of_files = "save the array by numpy.save and give the contact its path, by which the study is known again"
                     raise SceneError(f"study: its scene holds an array; {words_of_files}")
-                scene, words, tell_of_scene = until_done.enter_context(scene_on_disk(tables["scene"]))
+                scene, words, tell_of_scene = until_done.enter_context(scene_on_disk(tables["scene"], overrides))
                 tables["scene"] = os.path.abspath(scene)
             path = Path(until_done.enter_context(tempfile.TemporaryDirectory())) / "study.toml"
             path.write_text(toml_text(tables), encoding="utf-8")
@@ -171,7 +171,7 @@ def sweep(
 
         else:
             path = Path(study)
-        call(["sweep", operand(path), out_word(folder), *options, *words, *set_words(overrides)], quiet, tell)
+        call(["sweep", operand(path), out_word(folder), *options, *words], quiet, tell)
     return Study(folder)
 
 

@@ -127,17 +127,16 @@ def checked_overrides(overrides: Any) -> Mapping[str, Any]:
     if not isinstance(overrides, Mapping) or not all(isinstance(key, str) for key in overrides):
         raise SceneError(f'overrides: values by dotted keys are expected, such as {{"grid.points": 128}}, not {overrides!r}')
     for key, value in overrides.items():
+        if "=" in key:
+            raise SceneError(f'overrides["{key}"]: a key has no =; give its value behind it, as in {{"grid.points": 128}}')
         if value is None:
             raise SceneError(f'overrides["{key}"]: a value is expected, not None')
     return overrides
 
 
 def override_words(overrides: Any) -> list[tuple[str, str]]:
-    """Values by dotted keys in the words of the command line: a text as it is, anything else as TOML writes it."""
-    return [
-        (key, value if isinstance(value, str) else toml_value(value, f'overrides["{key}"]'))
-        for key, value in checked_overrides(overrides).items()
-    ]
+    """Values by dotted keys as TOML writes them, so that a text stays a text."""
+    return [(key, toml_value(value, f'overrides["{key}"]')) for key, value in checked_overrides(overrides).items()]
 
 
 def toml_value(value: Any, place: str) -> str:
