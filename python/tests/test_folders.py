@@ -1,9 +1,12 @@
 """Scenes, folders of runs, studies, and the program."""
 
+import os
 import re
 import signal
 import subprocess
 import sys
+import time
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -168,6 +171,63 @@ def test_control_c_keeps_the_finished_steps(tmp_path):
     shorter = scene.run(tmp_path / "run", resume=True, images=False)
     assert len(shorter.curve) == 60
     assert shorter.curve["converged"].all()
+
+
+#: Says its number and that it began, and a warning when it is told to end, unless it does not hear of that.
+PROGRAM = """
+import os, signal, sys, time
+def end(number, frame):
+    sys.stderr.write(f"warning: ended by {number}\\n")
+    sys.exit(0)
+for number in (signal.SIGINT, signal.SIGTERM):
+    signal.signal(number, signal.SIG_IGN if DEAF else end)
+with open("begun.part", "w") as file:
+    file.write(str(os.getpid()))
+os.rename("begun.part", "begun")
+time.sleep(60)
+"""
+
+
+@pytest.mark.skipif(os.name != "posix", reason="this system has no SIGALRM")
+@pytest.mark.parametrize(
+    ("raised", "deaf", "ended_by"),
+    [(KeyboardInterrupt, False, signal.SIGINT), (TimeoutError, False, signal.SIGTERM), (SystemExit, False, signal.SIGTERM), (KeyboardInterrupt, True, None)],
+)
+@pytest.mark.parametrize("strict", [False, True])
+def test_no_program_is_left_behind(raised, deaf, ended_by, strict, tmp_path, monkeypatch):
+    import tabor.program
+
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr(tabor.program, "PROGRAM", PROGRAM.replace("DEAF", str(deaf)))
+
+    def interrupt(*_):
+        if Path("begun").exists():
+            raise raised("told to end")
+
+    before = signal.signal(signal.SIGALRM, interrupt)
+    signal.setitimer(signal.ITIMER_REAL, 0.1, 0.5)
+    begin = time.monotonic()
+    try:
+        with warnings.catch_warnings(record=not strict) as told:
+            warnings.simplefilter("error" if strict else "always")
+            with pytest.raises(raised, match="told to end"):
+                tabor.program.call(["sweep"], True)
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+    assert time.monotonic() - begin < 20
+    with pytest.raises(ProcessLookupError):
+        os.kill(int(Path("begun").read_text()), 0)
+    # A second signal may come before it has said so.
+    if told and not deaf:
+        assert {str(each.message) for each in told if each.category is tabor.TaborWarning} == {f"ended by {ended_by.value}"}
+
+
+def test_what_the_program_says_does_not_depend_on_the_locale(tmp_path):
+    code = f"import tabor; print(ascii(tabor.Scene({SCENE!r}).check()))"
+    environment = {**os.environ, "LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, cwd=tmp_path, env=environment)
+    assert done.returncode == 0 and "4 \\xb5m x 4 \\xb5m" in done.stdout, done.stderr
 
 
 def test_a_second_control_c_does_not_wait(tmp_path):
