@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use numpy::PyArray2;
 use pyo3::prelude::*;
-use pyo3::types::PyDict;
+use pyo3::types::{PyDict, PyList};
 use tabor::{Jump, Load, Path, Solution};
 
 use crate::arrays::{Lent, array};
@@ -89,21 +89,20 @@ impl SolvedPath {
     }
 }
 
-/// A step as a dictionary, and the warnings that are new.
-type Solved<'py> = (Bound<'py, PyDict>, Vec<String>);
-
 #[pymethods]
 impl SolvedPath {
-    /// Solves the next load: its control in a scene's word, its value, SI, and the seconds that it takes.
-    #[pyo3(signature = (word, value, seconds=None, progress=None))]
+    /// Solves the next load: its control in a scene's word, its value, SI, and the seconds that it takes. Returns the step
+    /// as a dictionary; the warnings that are new are added to `said`, also where the load is refused.
+    #[pyo3(signature = (word, value, seconds, said, progress=None))]
     fn solve<'py>(
         &mut self,
         py: Python<'py>,
         word: &str,
         value: f64,
         seconds: Option<f64>,
+        said: &Bound<'py, PyList>,
         progress: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Solved<'py>> {
+    ) -> PyResult<Bound<'py, PyDict>> {
         let control = control(py, word, value)?;
         // Before the load is taken: one that is not solved would be the next one's.
         Lent::check(py, &self.lent)?;
@@ -111,19 +110,20 @@ impl SolvedPath {
             Some(seconds) => control.after(seconds),
             None => control.into(),
         });
-        self.next(py, progress)?
+        self.next(py, said, progress)?
             .ok_or_else(|| errors::failed(py, "this path has ended: a load did not converge"))
     }
 
     /// Solves the load behind those that were given; None where the surfaces are apart.
-    #[pyo3(signature = (progress=None))]
+    #[pyo3(signature = (said, progress=None))]
     fn pull<'py>(
         &mut self,
         py: Python<'py>,
+        said: &Bound<'py, PyList>,
         progress: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Option<Solved<'py>>> {
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
         Lent::check(py, &self.lent)?;
-        self.next(py, progress)
+        self.next(py, said, progress)
     }
 }
 
@@ -132,8 +132,9 @@ impl SolvedPath {
     fn next<'py>(
         &mut self,
         py: Python<'py>,
+        said: &Bound<'py, PyList>,
         progress: Option<&Bound<'py, PyAny>>,
-    ) -> PyResult<Option<Solved<'py>>> {
+    ) -> PyResult<Option<Bound<'py, PyDict>>> {
         if *self.process.get_or_insert_with(process::id) != process::id() {
             return Err(errors::failed(
                 py,
@@ -154,11 +155,14 @@ impl SolvedPath {
         let warnings = path.warnings().split_off(self.warned);
         self.warned += warnings.len();
         self.path = Some(path);
+        for words in warnings {
+            said.append(words)?;
+        }
         if let Some(Ok(solution)) = &solved {
             self.talk.finished(solution.row.step);
         }
         match solved {
-            Some(Ok(solution)) => Ok(Some((self.step(py, solution)?, warnings))),
+            Some(Ok(solution)) => self.step(py, solution).map(Some),
             Some(Err(error)) => Err(errors::of_contact(py, self.teller.as_ref(), &error)),
             None => Ok(None),
         }

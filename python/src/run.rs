@@ -6,6 +6,7 @@ use std::sync::Arc;
 use std::sync::mpsc::{Sender, channel};
 
 use pyo3::prelude::*;
+use pyo3::types::PyList;
 use tabor::{RunObserver, RunOptions, RunStatus, StepRow};
 
 use crate::arrays::Lent;
@@ -16,23 +17,13 @@ use crate::waiting::{Talk, wait_and_join};
 /// Hears a run on the solver's thread.
 struct Hearer {
     talk: Arc<Talk>,
-    said: Sender<(bool, String)>,
-}
-
-impl Hearer {
-    fn say(&self, is_warning: bool, words: &str) {
-        // Nobody may be waiting any more.
-        let _ = self.said.send((is_warning, words.to_owned()));
-    }
+    warned: Sender<String>,
 }
 
 impl RunObserver for Hearer {
-    fn note(&mut self, text: &str) {
-        self.say(false, text);
-    }
-
     fn warning(&mut self, text: &str) {
-        self.say(true, text);
+        // Nobody may be waiting any more.
+        let _ = self.warned.send(text.to_owned());
     }
 
     fn iteration(&mut self, _step: usize, iteration: usize, residual: f64) -> bool {
@@ -51,23 +42,22 @@ pub fn command_line(py: Python<'_>, words: Vec<OsString>) -> u8 {
     py.detach(|| tabor::command_line_with(words))
 }
 
-/// Why a run is not finished, if so, and what was said on the way, each with whether it is a warning.
-type End = (Option<String>, Vec<(bool, String)>);
-
-/// Solves every step of a scene into a folder. Returns what [`End`] holds.
+/// Solves every step of a scene into a folder. Returns why the run is not finished, if so. Warnings are added to `said`,
+/// also where it raises.
 #[pyfunction]
-#[pyo3(signature = (scene, folder, resume=false, overwrite=true, images=true, threads=None, progress=None))]
+#[pyo3(signature = (scene, folder, said, resume=false, overwrite=true, images=true, threads=None, progress=None))]
 #[expect(clippy::too_many_arguments, reason = "Python names each of them")]
 pub fn run(
     py: Python<'_>,
     scene: &LoadedScene,
     folder: PathBuf,
+    said: &Bound<'_, PyList>,
     resume: bool,
     overwrite: bool,
     images: bool,
     threads: Option<usize>,
     progress: Option<&Bound<'_, PyAny>>,
-) -> PyResult<End> {
+) -> PyResult<Option<String>> {
     let mut options = RunOptions::new()
         .resume(resume)
         .overwrite(overwrite)
@@ -76,20 +66,22 @@ pub fn run(
         options = options.threads(threads);
     }
     let talk = Arc::new(Talk::default());
-    let (said, heard) = channel();
+    let (warned, heard) = channel();
     let mut hearer = Hearer {
         talk: Arc::clone(&talk),
-        said,
+        warned,
     };
     Lent::check(py, &scene.lent)?;
     let (teller, scene) = (scene.teller(), scene.scene.clone());
     let end = wait_and_join(py, &talk, progress, move || {
         tabor::run_with(scene, &folder, &options, &mut hearer)
-    })?;
-    let end = end.map_err(|error| errors::of_run(py, teller, &error))?;
-    let trouble = match end.status {
+    });
+    for words in heard.try_iter() {
+        said.append(words)?;
+    }
+    let end = end?.map_err(|error| errors::of_run(py, teller, &error))?;
+    Ok(match end.status {
         RunStatus::Finished => None,
         early => Some(early.to_string()),
-    };
-    Ok((trouble, heard.try_iter().collect()))
+    })
 }

@@ -173,6 +173,30 @@ def test_control_c_keeps_the_finished_steps(tmp_path):
     assert shorter.curve["converged"].all()
 
 
+def test_control_c_keeps_the_warnings(tmp_path):
+    # A map that is tilted is warned of, as its surface is built.
+    np.save(tmp_path / "tilted.npy", np.add.outer(np.zeros(32), np.linspace(0, 1e-6, 32)))
+    loads = [f"{0.5 + 0.01 * number} kPa" for number in range(60)]
+    part = tabor.HeightFile(tmp_path / "tilted.npy", unit="m")
+    tilted = tabor.Contact(part, "4 um", contact_modulus="100 MPa", loading={"control": "pressure", "path": loads})
+
+    def interrupt(finished, iteration, residual):
+        if finished >= 1:
+            signal.raise_signal(signal.SIGINT)
+
+    def run():
+        with pytest.raises(KeyboardInterrupt):
+            tilted.run(tmp_path / "run", images=False, progress=interrupt)
+
+    with pytest.warns(tabor.TaborWarning) as told:
+        run()
+    assert {warning.filename for warning in told} == {__file__}
+    # A filter that makes errors of warnings leaves it what it is.
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        run()
+
+
 #: Says its number and that it began, and a warning when it is told to end, unless it does not hear of that.
 PROGRAM = """
 import os, signal, sys, time

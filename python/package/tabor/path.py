@@ -54,6 +54,7 @@ class Path:
         """The next step; warnings are told of the frame `level` above."""
         if not self._busy.acquire(blocking=False):
             raise RuntimeError("this path solves a load already, for another thread or for this progress; begin another path")
+        said: list[str] = []
         try:
             if self._ended:
                 raise StopIteration
@@ -64,11 +65,10 @@ class Path:
             if not self._begun:
                 self._begun = True
                 self._report = self._open.enter_context(self._bar)
-            solved = self._solver.pull(self._report) if load is None else self._solver.solve(*load, self._report)
-            if solved is None:
+            found = self._solver.pull(said, self._report) if load is None else self._solver.solve(*load, said, self._report)
+            if found is None:
                 self._ended = True
                 raise StopIteration
-            found, said = solved
             step = Step(found, self._periodic)
             self._solved += 1
             self._ended = not step.converged
@@ -76,17 +76,25 @@ class Path:
             # As of a generator: what is refused ends it.
             self._ended = self._ended or isinstance(error, TaborError)
             self._open.close()
+            for words in said:
+                # A warning that a filter makes an error does not stand in place of what ended the path.
+                with contextlib.suppress(Exception):
+                    warnings.warn(self._told(words), TaborWarning, stacklevel=level)
             raise
         finally:
             self._busy.release()
         if self._ended:
             self._open.close()
-        for words in said if self._wording is None else [self._wording("", words) for words in said]:
-            warnings.warn(words, TaborWarning, stacklevel=level)
+        for words in said:
+            warnings.warn(self._told(words), TaborWarning, stacklevel=level)
         if not step.converged:
             words = f"a load did not converge: residual {step.residual:.1e} after {step.iterations} iterations"
             warnings.warn(words, NotConvergedWarning, stacklevel=level)
         return step
+
+    def _told(self, words: str) -> str:
+        """A warning in the words of the scene's author."""
+        return words if self._wording is None else self._wording("", words)
 
     def __reduce__(self) -> Any:
         raise TypeError("a path that solves does not pickle; pickle its contact or scene, or the steps that it gave: list(path)")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import functools
 import itertools
 import json
@@ -385,9 +386,17 @@ class Scene:
         from .runs import Run
 
         total = None if self.resolved["loading"].get("until") else len(self._loaded.loads())
+        said: list[str] = []
         with reporter(progress, total) as report:
-            trouble, said = _tabor.run(self._loaded, os.fspath(folder), resume, overwrite, images, self.threads, report)
-        _warn(self._told_of("", words) for is_warning, words in said if is_warning)
+            try:
+                trouble = _tabor.run(self._loaded, os.fspath(folder), said, resume, overwrite, images, self.threads, report)
+            except BaseException:
+                for words in said:
+                    # A warning that a filter makes an error does not stand in place of what ended the run.
+                    with contextlib.suppress(Exception):
+                        _warn([self._told_of("", words)])
+                raise
+        _warn(self._told_of("", words) for words in said)
         if trouble is not None:
             warnings.warn(trouble, NotConvergedWarning, stacklevel=2)
         return Run(folder)
