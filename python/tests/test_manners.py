@@ -96,6 +96,12 @@ def test_tables_beside_arguments():
         tabor.Scene(tables, adhesion_map=np.ones((32, 32)))
 
 
+def test_numbers_keep_their_last_bit():
+    loads = np.random.default_rng(1).uniform(1e5, 1e6, 1000)
+    rough = contact(loading={"control": "pressure", "path": loads})
+    np.testing.assert_array_equal(rough.resolved["loading"]["path"], loads)
+
+
 def test_loads_come_from_anything_that_counts():
     expected = [step.force for step in contact().path(pressure=[1e6, 2e6])]
     for loads in ((load for load in (1e6, 2e6)), (1e6, "2 MPa"), np.array([1e6, 2e6], "f4"), np.array([1000000, 2000000]), {1e6: 1, 2e6: 2}):
