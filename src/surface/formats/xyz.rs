@@ -78,7 +78,7 @@ pub(super) fn as_grid(
 ) -> Result<Points, FileError> {
     let (rows, columns) = (numbers.rows, numbers.columns);
     let are_named = text.remarks().names_points(columns);
-    if !matches!(columns, 3 | 4) || (rows < 4 && !are_named) {
+    if !matches!(columns, 3 | 4) || rows < 4 {
         return Ok(Points::Unlikely);
     }
     let found = match columns {
