@@ -337,23 +337,30 @@ impl GpuDevice {
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
     use crate::backend::gpu::quietly;
 
-    /// A buffer larger than any device's memory and a shader that is not WGSL: wgpu's errors come back as
-    /// tabor's.
-    #[test]
-    fn what_a_device_cannot_do_is_an_error() {
+    /// The software driver's device, where there is one.
+    pub fn software_device() -> Option<GpuDevice> {
         let choice = AdapterChoice {
             software: true,
             ..AdapterChoice::default()
         };
         // Without the output of its driver.
         let made = quietly(|| GpuDevice::new(&choice)).expect("no panic");
-        let Ok(device) = made else {
+        if made.is_err() {
             let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|value| value == "1");
             assert!(!required, "TABOR_REQUIRE_GPU is set");
+        }
+        made.ok()
+    }
+
+    /// A buffer larger than any device's memory and a shader that is not WGSL: wgpu's errors come back as
+    /// tabor's.
+    #[test]
+    fn what_a_device_cannot_do_is_an_error() {
+        let Some(device) = software_device() else {
             return;
         };
         let refused = device.allocate("far too long", 1 << 50);

@@ -193,18 +193,13 @@ impl Passing {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::backend::gpu::{AdapterChoice, quietly, space};
+    use crate::backend::gpu::device::tests::software_device;
+    use crate::backend::gpu::space;
 
     /// What goes up in pieces, the last of them shorter, comes down the same, again and again through the same buffers.
     #[test]
     fn a_field_passes_in_pieces() {
-        let choice = AdapterChoice {
-            software: true,
-            ..AdapterChoice::default()
-        };
-        let Ok(device) = quietly(|| GpuDevice::new(&choice)).expect("no panic") else {
-            let required = std::env::var("TABOR_REQUIRE_GPU").is_ok_and(|value| value == "1");
-            assert!(!required, "TABOR_REQUIRE_GPU is set");
+        let Some(device) = software_device() else {
             return;
         };
         let mut transfers = Transfers::in_pieces(1 << 10);
