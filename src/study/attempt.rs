@@ -33,6 +33,8 @@ pub(crate) struct Attempt<'a> {
     pub duration: f64,
     /// Whether the solver's gap belongs to a solved step.
     pub loaded: bool,
+    /// To which tolerance it is solved.
+    pub tolerance: f64,
     /// Where solvers on coarser grids get their backends from.
     pub make_backend: MakeBackend<'a>,
     /// Sees each iteration and says whether to continue.
@@ -40,10 +42,10 @@ pub(crate) struct Attempt<'a> {
 }
 
 impl Attempt<'_> {
-    /// Solves a load from a start with the scene's own settings.
+    /// Solves a load from a start.
     pub fn solve(&mut self, load: &Load, start: &Start) -> Result<Outcome, BackendError> {
-        let settings = &self.setup.scene.solver;
-        self.solve_to(settings.tolerance, settings.max_iterations, load, start)
+        let iterations = self.setup.scene.solver.max_iterations;
+        self.solve_to(self.tolerance, iterations, load, start)
     }
 
     fn solve_to(
@@ -75,7 +77,7 @@ impl Attempt<'_> {
         let outcome = self.restart_stalled(load, outcome)?;
         let mut solved = self.finish(load, &outcome)?;
         let settings = &self.setup.scene.solver;
-        let mut tolerance = settings.tolerance;
+        let mut tolerance = self.tolerance;
         for _ in 0..CLOSER {
             let state = solved.evaluation.as_ref().filter(|_| solved.converged);
             if !state.is_some_and(|state| misses(self.setup, state)) {
@@ -88,7 +90,7 @@ impl Attempt<'_> {
             let left = settings.max_iterations.saturating_sub(before);
             let mut outcome = self.solve_to(tolerance, left, load, &Start::Present)?;
             // It need not be this close: what is still missed is warned of.
-            if outcome.status != Status::PulledOff && outcome.residual <= settings.tolerance {
+            if outcome.status != Status::PulledOff && outcome.residual <= self.tolerance {
                 outcome.status = Status::Converged;
             }
             outcome.iterations += before;
@@ -110,7 +112,7 @@ impl Attempt<'_> {
         let settings = &self.setup.scene.solver;
         for _ in 0..FURTHER_STARTS {
             let is_open =
-                outcome.status == Status::Stalled && outcome.residual > settings.tolerance;
+                outcome.status == Status::Stalled && outcome.residual > self.tolerance;
             let is_held = self.problem.hardness.is_some();
             let left = settings.max_iterations.saturating_sub(outcome.iterations);
             if !is_open || is_held || !self.problem.law.has_wall() || left == 0 {
@@ -124,7 +126,7 @@ impl Attempt<'_> {
                 nearer.iter_mut().for_each(|gap| *gap *= scale);
             }
             let before = outcome.iterations;
-            outcome = self.solve_to(settings.tolerance, left, load, &Start::Gap(nearer))?;
+            outcome = self.solve_to(self.tolerance, left, load, &Start::Gap(nearer))?;
             outcome.iterations += before;
         }
         Ok(outcome)

@@ -36,6 +36,9 @@ const KEEPING: usize = 2;
 /// One halving suffices if the half keeps this share of the loss, and the loss is so many times its
 /// uncertainty.
 const SURE: [f64; 2] = [0.7, 2.0];
+/// Tolerance of the states in a step, of which no row is kept: a loss that counts is a hundredth of the work of the points that
+/// changed, and an energy is right to the square of the residual.
+const SEARCHED_TO: f64 = 1e-4;
 /// Halvings of a step at most.
 const MOST_HALVINGS: usize = 8;
 
@@ -332,6 +335,8 @@ pub(super) fn confirm(
         return Ok(Some(true));
     };
     between.tell(Search::Jump);
+    let tolerance = &mut between.means.tolerance;
+    *tolerance = tolerance.max(SEARCHED_TO);
     let start = Place {
         share: 0.0,
         carried: state,

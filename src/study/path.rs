@@ -124,6 +124,7 @@ impl Walk {
         let means = Means {
             setup,
             make_backend,
+            tolerance: setup.scene.solver.tolerance,
         };
         let mut stretch = match self.stretch(&means, planned.duration)? {
             Some(stretch) => stretch,

@@ -77,6 +77,8 @@ pub(super) struct Means<'s> {
     pub setup: &'s Setup,
     /// Where solvers get their backends from.
     pub make_backend: MakeBackend<'s>,
+    /// To which tolerance a load is solved.
+    pub tolerance: f64,
 }
 
 /// A solver with the state of its last load, which may be kept between loads.
@@ -176,6 +178,7 @@ impl Walker {
         let Means {
             setup,
             make_backend,
+            tolerance,
         } = *means;
         let problem = Arc::clone(&self.problem);
         let controller = &Controller::new(setup, &problem);
@@ -192,6 +195,7 @@ impl Walker {
             value,
             duration,
             loaded: self.loaded,
+            tolerance,
             make_backend,
             watch: &mut watch,
         };
