@@ -321,6 +321,27 @@ fn surfaces_stored_upside_down_or_mirrored_are_turned() {
     assert_eq!(turned(3), columns);
 }
 
+/// Warnings of a file of these bytes, missing points filled.
+fn warnings_of(name: &str, bytes: &[u8]) -> String {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join(name);
+    fs::write(&path, bytes).unwrap();
+    let surface = build(path.to_str().unwrap(), Fill::Interpolate, None);
+    surface.expect(name).warnings.join("\n")
+}
+
+#[test]
+fn a_series_of_surfaces_is_told() {
+    let bytes = good("surfalize.sur");
+    let series = patched(&patched(&bytes, 14, &[3]), 18, &[5]);
+    assert_eq!(heights_of("a.sur", &series), heights_of("a.sur", &bytes));
+    let found = warnings_of("a.sur", &series);
+    assert!(
+        found.contains("the file holds 3 objects; the first is read"),
+        "{found}"
+    );
+}
+
 /// Bytes with `new` in place of the first `old`, which is there.
 fn with(bytes: &[u8], old: &[u8], new: &[u8]) -> Vec<u8> {
     let at = bytes
@@ -457,6 +478,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("packed.sur", with(&sur, b"DIGITAL SURF", b"DSCOMPRESSED"), "compressed .sur files are not in this version; save it without compression"),
         ("motorola.sur", patched(&sur, 12, &[1]), ".sur files with the bytes in Motorola's order are not in this version"),
         ("bits.sur", patched(&sur, 98, &[8]), "broken .sur file at byte 98: points of 8 bits; 16 or 32 are known"),
+        ("image.sur", patched(&sur, 18, &[10]), ".sur files of images, spectra, force curves or contours are not in this version; save a surface"),
         ("negative.sur", patched(&sur, 108, &[0xff; 4]), "9 rows of -1 columns"),
         ("vast.sur", patched(&sur, 108, &[0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff, 0x7f]), "points are too many"),
         ("step.sur", patched(&sur, 120, &[0; 4]), "broken .sur file at byte 120: steps of 0 and"),

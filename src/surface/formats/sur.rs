@@ -20,6 +20,10 @@ const FORMAT: &str = ".sur";
 /// Length of the header.
 const HEADER: usize = 512;
 
+/// Kinds of objects that are or begin with heights: profiles, surfaces, series and layers of both, surfaces with an image; 0 is not
+/// known. The others are images, spectra, force curves and contours.
+const HEIGHTS: [u16; 10] = [0, 1, 2, 4, 5, 7, 8, 11, 13, 16];
+
 /// Values of the field "inverted": how rows and columns are stored.
 const INVERTED_Z: u16 = 1;
 const FLIPPED: u16 = 2;
@@ -58,15 +62,24 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
         _ => values,
     };
     let [dx, dy] = header.pixel;
-    Ok(Matrix {
+    let mut matrix = Matrix {
         size: Some(Size::Metres([dx * columns as f64, dy * rows as f64])),
         unit: header.unit,
         ..Matrix::new(values.into(), shape)
-    })
+    };
+    if header.objects > 1 {
+        matrix.warnings.push(format!(
+            "the file holds {} objects; the first is read",
+            header.objects
+        ));
+    }
+    Ok(matrix)
 }
 
 /// The required entries of the header.
 struct Header {
+    /// Profiles or surfaces of the file.
+    objects: u16,
     shape: [usize; 2],
     bits: u16,
     codes: Codes,
@@ -93,14 +106,22 @@ impl Header {
     /// Field by field, in the order of the format.
     fn parse(file: &mut Bytes) -> Result<Header, FileError> {
         file.take(12, "the magic words")?;
-        // Byte order (0 is that of a PC), objects, version, kind of object.
+        // 0 is that of a PC.
         if file.u16("the order of bytes")? != 0 {
             return Err(FileError::NotSupported {
                 what: ".sur files with the bytes in Motorola's order",
                 instead: "save it in the format of a PC",
             });
         }
-        file.take(2 + 2 + 2 + 30 + 30 + 2 + 2 + 2, "the names")?;
+        let objects = file.u16("the number of objects")?;
+        file.take(2, "the version")?;
+        if !HEIGHTS.contains(&file.u16("the kind of object")?) {
+            return Err(FileError::NotSupported {
+                what: ".sur files of images, spectra, force curves or contours",
+                instead: "save a surface",
+            });
+        }
+        file.take(30 + 30 + 2 + 2 + 2, "the names")?;
         let has_missing = file.u16("the mark for missing points")? == 1;
         file.take(2 + 4 + 4, "the resolution of the gauge")?;
         let place = file.offset();
@@ -145,6 +166,7 @@ impl Header {
         file.take(128 + 4 + 4, "the client's zone")?;
         let offset = f64::from(file.f32("the height of zero")?);
         Ok(Header {
+            objects,
             shape,
             bits,
             codes: Codes {
