@@ -257,14 +257,17 @@ fn grey_images_in_a_scene_take_black_and_white() {
     }
 }
 
-/// The heights of a file of these bytes, missing ones filled, on its own grid.
-fn heights_of(name: &str, bytes: &[u8]) -> Vec<f64> {
+/// The surface of a file of these bytes, missing heights filled, on its own grid.
+fn surface_of(name: &str, bytes: &[u8]) -> Surface {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join(name);
     fs::write(&path, bytes).unwrap();
     // A path from the root replaces that of the collection.
-    let surface = build(path.to_str().unwrap(), Fill::Interpolate, None);
-    surface.expect(name).heights.to_vec()
+    build(path.to_str().unwrap(), Fill::Interpolate, None).expect(name)
+}
+
+fn heights_of(name: &str, bytes: &[u8]) -> Vec<f64> {
+    surface_of(name, bytes).heights.to_vec()
 }
 
 #[test]
@@ -321,25 +324,79 @@ fn surfaces_stored_upside_down_or_mirrored_are_turned() {
     assert_eq!(turned(3), columns);
 }
 
-/// Warnings of a file of these bytes, missing points filled.
-fn warnings_of(name: &str, bytes: &[u8]) -> String {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join(name);
-    fs::write(&path, bytes).unwrap();
-    let surface = build(path.to_str().unwrap(), Fill::Interpolate, None);
-    surface.expect(name).warnings.join("\n")
-}
-
 #[test]
 fn a_series_of_surfaces_is_told() {
     let bytes = good("surfalize.sur");
     let series = patched(&patched(&bytes, 14, &[3]), 18, &[5]);
-    assert_eq!(heights_of("a.sur", &series), heights_of("a.sur", &bytes));
-    let found = warnings_of("a.sur", &series);
+    let found = surface_of("a.sur", &series);
+    assert_eq!(found.heights.to_vec(), heights_of("a.sur", &bytes));
+    let warned = found.warnings.join("\n");
     assert!(
-        found.contains("the file holds 3 objects; the first is read"),
-        "{found}"
+        warned.contains("the file holds 3 objects; the first is read"),
+        "{warned}"
     );
+}
+
+/// Deflections are lengths too, once they are calibrated.
+#[test]
+fn images_of_nanoscope_that_are_named_as_heights_come_first() {
+    let bytes = good("bruker_10.spm");
+    let bytes = with(
+        &bytes,
+        b"[ZSensor] \"Height Sensor",
+        b"[Deflect] \"Deflection Er",
+    );
+    let warned = surface_of("a.spm", &bytes).warnings.join("\n");
+    assert!(
+        warned.contains(
+            "names no image as one of heights; the first of lengths, Deflection Er, is read"
+        ),
+        "{warned}"
+    );
+    let bytes = with(
+        &bytes,
+        b"ForceDeflSens: V 1.000000 ",
+        b"ForceDeflSens: V 45.0 nm/V",
+    );
+    let bytes = with(&bytes, b"[PeakForceError]", b"[HeightOfSensor]");
+    let found = surface_of("a.spm", &bytes);
+    let warned = found.warnings.join("\n");
+    assert!(!warned.contains("is read"), "{warned}");
+    let (numbers, _) = bytes[6432..].as_chunks();
+    for (height, number) in found.heights.iter().zip(numbers) {
+        let expected = f64::from(i32::from_le_bytes(*number)) / 2_f64.powi(32) * 24.576 * 45e-9;
+        assert_relative_eq!(*height, expected, max_relative = 1e-12);
+    }
+}
+
+/// 12 x 9 points of a scan size of 1 um for both sides.
+#[test]
+fn images_of_nanoscope_may_be_longer_along_one_axis() {
+    let plain = good("bruker_10.spm");
+    let ratio = |bytes: &[u8], new: &[u8]| with(bytes, b"Ratio: 1:1", new);
+    let lines = with(
+        &plain,
+        b"\\@Sens. DeflSens: V 1.000000",
+        b"\\Lines: 18                  ",
+    );
+    // Of the scan and of the image; 3:3 is a square.
+    let of_image = ratio(&ratio(&lines, b"Ratio: 3:3"), b"Ratio: 2:1");
+    let of_both = ratio(&ratio(&lines, b"Ratio: 2:1"), b"Ratio: 2:1");
+    let stated = with(
+        &of_both,
+        b"Size: 1 1 ~m\r\n\\Line",
+        b"Size: 1 .5 ~m\r\n\\Lin",
+    );
+    for (bytes, expected) in [
+        (plain, 1e-6),
+        (of_image, 9.0 / 18.0 * 1e-6),
+        (of_both, 9.0 / 12.0 * 1e-6),
+        (stated, 0.5e-6),
+    ] {
+        let grid = surface_of("a.spm", &bytes).grid;
+        assert_relative_eq!(grid.lx, 1e-6, max_relative = 1e-12);
+        assert_relative_eq!(grid.ly, expected, max_relative = 1e-12);
+    }
 }
 
 /// Bytes with `new` in place of the first `old`, which is there.
