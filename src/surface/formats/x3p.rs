@@ -222,9 +222,14 @@ fn describe<R: Read + Seek>(archive: &mut ZipArchive<R>) -> Result<Description, 
         let length = length.filter(|length: &f64| length.is_finite() && *length > 0.0);
         length.ok_or_else(|| wrong(format!("{} is not a length", path.join("/"))))
     };
-    if find(&["Record1", "FeatureType"]).is_some_and(|kind| kind != "SUR") || count("SizeZ")? != 1 {
+    // Of an absolute axis the coordinates stand beside the heights.
+    let is_absolute = |axis: &&str| find(&["Record1", "Axes", axis, "AxisType"]) == Some("A");
+    if find(&["Record1", "FeatureType"]).is_some_and(|kind| kind != "SUR")
+        || count("SizeZ")? != 1
+        || ["CX", "CY"].iter().any(is_absolute)
+    {
         return Err(FileError::NotSupported {
-            what: ".x3p files of profiles, point clouds or several layers",
+            what: ".x3p files of profiles, point clouds, coordinates or several layers",
             instead: "save one surface on a grid",
         });
     }
@@ -258,14 +263,15 @@ mod tests {
 
     use crate::surface::formats::Opening;
 
-    /// Two rows of five points as whole numbers of 0.1 nm, with these bits of valid points.
-    fn file(valid: &[u8]) -> Vec<u8> {
+    /// Two rows of five points as whole numbers of 0.1 nm, with this type of the axis x and these bits of valid points.
+    fn file(axis: &str, valid: &[u8]) -> Vec<u8> {
         let description = "<p:ISO5436_2 xmlns:p=\"http://www.opengps.eu/2008/ISO5436_2\"><Record1><FeatureType>SUR</FeatureType>\
-             <Axes><CX><Increment>1e-6</Increment></CX><CY><Increment>2e-6</Increment></CY>\
+             <Axes><CX><AxisType>AXIS</AxisType><Increment>1e-6</Increment></CX><CY><Increment>2e-6</Increment></CY>\
              <CZ><DataType>L</DataType><Increment>1e-10</Increment></CZ></Axes></Record1><Record3>\
              <MatrixDimension><SizeX>5</SizeX><SizeY>2</SizeY><SizeZ>1</SizeZ></MatrixDimension>\
              <DataLink><PointDataLink>bindata/data.bin</PointDataLink>\
-             <ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink></Record3></p:ISO5436_2>";
+             <ValidPointsLink>bindata/valid.bin</ValidPointsLink></DataLink></Record3></p:ISO5436_2>"
+            .replace("AXIS", axis);
         let numbers: Vec<u8> = (1_i32..11).flat_map(i32::to_le_bytes).collect();
         let mut archive = zip::ZipWriter::new(Cursor::new(Vec::new()));
         for (name, bytes) in [
@@ -288,9 +294,15 @@ mod tests {
     }
 
     #[test]
+    fn coordinates_beside_heights_are_refused() {
+        let error = opened(&file("A", &[0xff; 2]), Opening::Whole).unwrap_err();
+        assert!(error.to_string().contains("coordinates"), "{error}");
+    }
+
+    #[test]
     fn points_marked_as_invalid_are_missing() {
         // The third point of the first row, and the fifth of the second, which is the second bit of the second byte.
-        let bytes = file(&[0b1111_1011, 0b1111_1101]);
+        let bytes = file("I", &[0b1111_1011, 0b1111_1101]);
         for opening in [Opening::Whole, Opening::ByRows] {
             let found = opened(&bytes, opening).unwrap();
             for (at, value) in found.values.iter().enumerate() {
@@ -300,7 +312,7 @@ mod tests {
                 }
             }
         }
-        let error = opened(&file(&[255; 10]), Opening::Whole).unwrap_err();
+        let error = opened(&file("I", &[255; 10]), Opening::Whole).unwrap_err();
         assert!(
             error
                 .to_string()
