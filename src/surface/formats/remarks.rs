@@ -1,7 +1,7 @@
 //! Lengths that the comments of a text state, in the form of Gwyddion's text export, and the units in the heads of its columns.
 
 use super::length::length_unit;
-use crate::units::{Dimension, name_and_unit, parse_quantity};
+use crate::units::{Dimension, name_and_unit, parse_quantity, quoted};
 
 /// What comments begin with.
 const COMMENT: [char; 5] = ['#', '%', '/', ' ', '\t'];
@@ -25,6 +25,8 @@ pub(super) struct Remarks {
     height: Option<f64>,
     /// Metres per unit of the numbers.
     pub unit: Option<f64>,
+    /// Their unit, if it is no length.
+    other_unit: Option<String>,
     /// Metres per unit of x and y of points with coordinates.
     lateral_unit: Option<f64>,
     /// Of the header line.
@@ -105,6 +107,14 @@ impl Remarks {
         are_heads && self.number_unit(columns, has_places).is_none()
     }
 
+    /// A warning of numbers that are no lengths, as a comment says.
+    pub fn other_unit(&self) -> Option<String> {
+        let unit = quoted(self.other_unit.as_deref()?);
+        Some(format!(
+            "its comments give the unit {unit} of the values, which is not a length: unit says how long one is"
+        ))
+    }
+
     /// Reads a comment: `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um`.
     pub fn take_comment(&mut self, comment: &str) {
         let comment = comment.trim_start_matches(COMMENT);
@@ -115,7 +125,11 @@ impl Remarks {
         match name.trim().to_ascii_lowercase().as_str() {
             "width" => self.width = length,
             "height" => self.height = length,
-            "value units" => self.unit = unit,
+            "value units" => {
+                self.unit = unit;
+                let is_other = unit.is_none() && !value.trim().is_empty();
+                self.other_unit = is_other.then(|| value.trim().to_owned());
+            }
             "lateral units" => self.lateral_unit = unit,
             _ => {}
         }

@@ -57,6 +57,7 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     if text.remarks.leaves_units(columns, columns == 2) {
         matrix.warnings.push(UNITS_LEFT.to_owned());
     }
+    matrix.warnings.extend(text.remarks.other_unit());
     if opening == Opening::Whole {
         return Ok(matrix.into());
     }

@@ -265,6 +265,11 @@ fn sizes_are_read_in_any_language() {
     let other = "# Kanal: Topo\n# Breite: 5 um\n# H\u{f6}he: 8 nm\n# Value units: V\n1 2\n3 4\n";
     let matrix = read_map(other.as_bytes()).unwrap();
     assert_eq!((matrix.size, matrix.unit), (None, None));
+    assert!(
+        matrix.warnings[0].contains("give the unit \"V\" of the values, which is not a length"),
+        "{:?}",
+        matrix.warnings
+    );
 }
 
 /// Of a long text the beginning tells how it is read, and about how many rows it has; three columns may be points.

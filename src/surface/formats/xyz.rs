@@ -149,10 +149,9 @@ fn gridded(text: &Text, points: &Matrix, opening: Opening) -> Result<Map, NoGrid
         Some(units) => Size::Metres([sides[0] * units[of_x], sides[1] * units[of_y]]),
         None => Size::LikeHeights(sides),
     });
-    let warnings = match text.remarks().leaves_units(3, true) {
-        true => vec![text::UNITS_LEFT.to_owned()],
-        false => Vec::new(),
-    };
+    let leaves_units = text.remarks().leaves_units(3, true);
+    let mut warnings: Vec<String> = text.remarks().other_unit().into_iter().collect();
+    warnings.extend(leaves_units.then(|| text::UNITS_LEFT.to_owned()));
     Ok(Matrix {
         size,
         warnings,
