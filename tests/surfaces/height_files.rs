@@ -592,6 +592,8 @@ fn bad_files_are_refused_in_a_sentence() {
         ("colour.png", colour_png(), "images other than grey ones of 8 or 16 bits are not in this version; colours are not heights"),
         ("grey.png", png.clone(), "this is a grey image: give --black and --white, the heights of its ends"),
         ("cut.tif", tif[..100].to_vec(), "broken TIFF image: "),
+        ("tiles.tif", patched(&good("tifffile_deflate.tif"), 162, &[0, 0, 0x10, 0]), "16 rows of 1048576 columns need 8192 bytes, there are 546"),
+        ("vast_tiles.tif", patched(&good("tifffile_deflate.tif"), 162, &[0xf0, 0xff, 0xff, 0xff]), "68719476480 points are too many"),
         ("cut_pixels.tif", tif[..tif.len() - 20].to_vec(), "broken TIFF image: "),
     ];
     let folder = tempfile::tempdir().unwrap();

@@ -68,7 +68,10 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
     let numbers = match first_number(&mut image, shape, size).map_err(broken)? {
         Some(start) => plain(file, start, shape, bits, image.byte_order())?,
         None => {
-            let chunk = chunk(&mut image, shape).map_err(broken)?;
+            let [height, width] = chunk(&mut image, shape).map_err(broken)?;
+            // A tile may be larger than the image, but no larger than the file can encode.
+            let chunk = checked_shape(height as i64, width as i64)?;
+            refuse_ratio(chunk, size, file.length())?;
             // One strip may be the whole map.
             let is_large = chunk[0].saturating_mul(shape[1]) > most;
             let is_streamed = file.opening() == Opening::ByRows && is_large;
