@@ -119,8 +119,8 @@ fn read(
     let plain = HeightFileScene::new(path);
     // A map need not be periodic, so mismatched edges are not reported.
     let boundary = Boundary::Free;
-    let whole = || match file::read_numbers(&plain, boundary) {
-        Err(FileError::GreyEndsMissing) => file::read_numbers(&with_ends(&plain, SHADES), boundary),
+    let whole = || match file::read_factors(&plain, boundary) {
+        Err(FileError::GreyEndsMissing) => file::read_factors(&with_ends(&plain, SHADES), boundary),
         map => map,
     };
     let reading = Reading {

@@ -49,7 +49,7 @@ pub(super) struct Reading<'a> {
     pub repeats: Option<[usize; 2]>,
     /// Reads the whole of a file.
     pub whole: &'a dyn Fn() -> Result<HeightMap, FileError>,
-    /// Black and white of a grey image of which the scene says nothing, if that is no mistake.
+    /// Black and white of a grey image of which the scene says nothing, if that is no mistake, as of factors.
     pub shades: Option<[f64; 2]>,
     /// Refuses a file of so many points along x and y that is no such map.
     pub fits: &'a dyn Fn([usize; 2]) -> Result<(), FileError>,
@@ -126,6 +126,9 @@ impl Reading<'_> {
         let kept = self.scene.preparation.crop.unwrap_or([0, 0, columns, rows]);
         let fits = (self.fits)(points).and_then(|()| prepare::check_crop(kept, points));
         fits.map_err(self.wrong)?;
+        if self.shades.is_some() {
+            file::expect_factors(header.unit).map_err(self.wrong)?;
+        }
         let [x, y, nx, ny] = kept;
         header.size = header
             .size

@@ -348,6 +348,14 @@ pub enum FileError {
         /// The unit in the file.
         unit: String,
     },
+    /// Lengths in place of factors.
+    #[error(
+        "the file gives its numbers in units of {unit:e} m, and factors have none; save them without a unit"
+    )]
+    LengthsAsFactors {
+        /// Metres in the unit.
+        unit: f64,
+    },
     /// Points x, y, z that do not form a grid.
     #[error("the points x, y, z do not form a grid: {what}")]
     NotAGrid {

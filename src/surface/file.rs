@@ -154,13 +154,22 @@ pub(super) fn expect_map(grid: Option<[usize; 2]>, points: [usize; 2]) -> Result
     }
 }
 
-/// The same of numbers that need not be heights, where a single row is a map too.
-pub(super) fn read_numbers(
+/// The same of factors, where a single row is a map too.
+pub(super) fn read_factors(
     scene: &HeightFileScene,
     boundary: Boundary,
 ) -> Result<HeightMap, FileError> {
     let matrix = formats::open_map(&scene.path, Opening::Whole)?.read()?;
+    expect_factors(matrix.unit)?;
     whole_heights_of(scene, boundary, matrix)
+}
+
+/// Refuses numbers in another unit of length than m, which many formats state of whatever they hold.
+pub(super) fn expect_factors(unit: Option<f64>) -> Result<(), FileError> {
+    match unit {
+        Some(unit) if unit != 1.0 => Err(FileError::LengthsAsFactors { unit }),
+        _ => Ok(()),
+    }
 }
 
 fn whole_heights_of(

@@ -92,6 +92,7 @@ fn table() -> Vec<BadFile> {
         good("[[surface]]\nkind = \"file\"\npath = \"other.txt\"", "FileError::NotFound", "[[surface]] 2: FOLDER/other.txt: there is no such file"),
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"wide.csv\"", "SurfaceError::AdhesionMap", "[adhesion] map FOLDER/wide.csv: the map has 4 x 2 points (x, y), but the grid has 3 x 2"),
         good("[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"zeros.txt\"", "MapError::Factor", "[adhesion] map FOLDER/zeros.txt: row 1, column 1: a factor of 0e0; it must be above 0"),
+        good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"lengths.txt\"", "FileError::LengthsAsFactors", "[adhesion] map FOLDER/lengths.txt: the file gives its numbers in units of 1e-9 m, and factors have none; save them without a unit"),
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"zeros.txt\"", "MapError::Nothing", "every factor is 0; leave [adhesion] out"),
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = { pattern = \"stripe\", period = 1.5e-6, low = 0, high = 1 }", "MapError::PeriodTooShort", "period = 1.5e-6 m along x is shorter than two pixels of 1e-6 m; take more points"),
         good("[[surface]]\nkind = \"file\"\npath = \"wide.csv\"", "FileError::OtherPoints", "[[surface]] 2: FOLDER/wide.csv: the map has 4 x 2 points (x, y), but an earlier height file has 3 x 2; leave points out"),
@@ -109,6 +110,8 @@ fn refused(bad: &BadFile) -> Reached {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("wide.csv"), "1,2,3,4\n5,6,7,8\n").expect("a file");
     fs::write(folder.path().join("zeros.txt"), "0 0 0\n0 0 0\n").expect("a file");
+    let lengths = "# Value units: nm\n1 1 1\n1 1 1\n";
+    fs::write(folder.path().join("lengths.txt"), lengths).expect("a file");
     fs::write(folder.path().join(bad.name), &bad.bytes).expect("a file");
     let expected = bad.expected.replace("FOLDER", ".");
     let message = check(folder.path(), &scene(bad.name, bad.more), &expected);
