@@ -101,14 +101,17 @@ fn windows_number(word: &str) -> Option<f64> {
     (is_rounded || WINDOWS.contains(&name.as_str())).then_some(value)
 }
 
-/// Whether a line consists of words, none of them a number. Quotes may stand round a decimal comma.
+/// Whether a line consists of words, none of them a number, and not of signs alone, which some programs write for missing numbers
+/// (`--`). Quotes may stand round a decimal comma.
 pub(super) fn is_words(line: &str) -> bool {
     let mut words = line
         .split([' ', '\t', ',', ';'])
         .map(|word| word.trim_matches('"'))
         .filter(|word| !word.is_empty())
         .peekable();
-    words.peek().is_some() && words.all(|word| number(word, Separator::Blanks).is_none())
+    line.contains(char::is_alphabetic)
+        && words.peek().is_some()
+        && words.all(|word| number(word, Separator::Blanks).is_none())
 }
 
 /// What separates words in the lines of a file.
@@ -222,10 +225,14 @@ pub(super) fn number(field: &str, separator: Separator) -> Option<f64> {
     if let Some(value) = windows_number(field) {
         return Some(value);
     }
-    // A decimal comma, where commas do not separate; Fortran's exponent mark.
+    // A decimal comma, where commas do not separate; Fortran's exponent mark; the minus sign of spreadsheets in Scandinavia.
     let mut other: String = field
         .chars()
-        .map(|c| if matches!(c, 'd' | 'D') { 'e' } else { c })
+        .map(|c| match c {
+            'd' | 'D' => 'e',
+            '\u{2212}' => '-',
+            other => other,
+        })
         .collect();
     if separator != Separator::Comma && !other.contains('.') {
         other = other.replacen(',', ".", 1);

@@ -64,6 +64,7 @@ fn the_same_matrix_in_every_form() {
         "\n# a comment\nheight (nm)\n1,-2.5,3\n4,5e-9,6.25",
         "\"1\",\"-2.5\",\"3\"\n4,5D-9,6.25",
         "+1 -2.50 3. \n4. 5d-9 +6.25",
+        "1;\u{2212}2,5;3\n4;5e\u{2212}9;6,25",
     ] {
         assert_eq!(numbers(text), expected, "{text:?}");
     }
@@ -144,7 +145,7 @@ fn what_other_programs_write_for_no_number_is_missing() {
 }
 
 #[test]
-fn a_first_row_of_quoted_decimal_commas_is_no_header() {
+fn a_first_row_of_quoted_decimal_commas_or_minus_signs_is_no_header() {
     assert_eq!(
         numbers("\"1,5\";\"2,5\"\n\"3\";\"4\"\n"),
         (2, 2, vec![1.5, 2.5, 3.0, 4.0])
@@ -152,6 +153,10 @@ fn a_first_row_of_quoted_decimal_commas_is_no_header() {
     assert_eq!(
         numbers("\"a\";\"b\"\n\"3\";\"4\"\n"),
         (1, 2, vec![3.0, 4.0])
+    );
+    assert_eq!(
+        numbers("\u{2212}1e\u{2212}2 \u{2212}2\n3 4\n"),
+        (2, 2, vec![-1e-2, -2.0, 3.0, 4.0])
     );
     // Nor is one whose pixels are all missing.
     let (rows, _, values) = numbers(";;\n1;2;3\n");
@@ -220,6 +225,11 @@ fn errors_name_line_row_and_column() {
         (
             "words\nmore words\n1 2\n",
             "line 2 (row 1), column 1: \"more\" is not a number",
+        ),
+        // A first row without letters is no header.
+        (
+            "-- --\n1 2\n",
+            "line 1 (row 1), column 1: \"--\" is not a number",
         ),
         ("# nothing\n\n", "holds no numbers"),
         ("0x10 1\n", "\"0x10\" is not a number"),
