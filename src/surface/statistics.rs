@@ -218,15 +218,27 @@ fn difference_mean_squares(
             .map(|(here, next)| ((next - here) / dy).powi(2))
             .sum()
     });
+    // A side of one or two points has no second difference.
+    let inside = |points: usize| match points {
+        0..3 => 0..points,
+        _ => 1..points - 1,
+    };
+    let (rows, columns) = (inside(ny), inside(nx));
     let laplacian = sum_over_rows(grid, share, heights, |iy, row| {
-        if iy == 0 || iy + 1 == ny {
+        if !rows.contains(&iy) {
             return 0.0;
         }
-        let (below, above) = (line(iy - 1), line(iy + 1));
-        (1..nx.saturating_sub(1))
+        let beside = (ny > 2).then(|| (line(iy - 1), line(iy + 1)));
+        columns
+            .clone()
             .map(|ix| {
-                let along_x = (row[ix - 1] - 2.0 * row[ix] + row[ix + 1]) / (dx * dx);
-                let along_y = (below[ix] - 2.0 * row[ix] + above[ix]) / (dy * dy);
+                let along_x = match nx > 2 {
+                    true => (row[ix - 1] - 2.0 * row[ix] + row[ix + 1]) / (dx * dx),
+                    false => 0.0,
+                };
+                let along_y = beside.map_or(0.0, |(below, above)| {
+                    (below[ix] - 2.0 * row[ix] + above[ix]) / (dy * dy)
+                });
                 (along_x + along_y).powi(2)
             })
             .sum()
@@ -235,7 +247,7 @@ fn difference_mean_squares(
     let mean = |sum: f64, count: usize| if count == 0 { 0.0 } else { sum / count as f64 };
     Ok([
         mean(along_x, (nx - 1) * ny) + mean(along_y, nx * (ny - 1)),
-        mean(laplacian, nx.saturating_sub(2) * ny.saturating_sub(2)),
+        mean(laplacian, rows.len() * columns.len()),
     ])
 }
 
@@ -243,6 +255,10 @@ fn difference_mean_squares(
 fn windowed(grid: &Grid, heights: &[f64]) -> Vec<f64> {
     let mean = heights.iter().sum::<f64>() / grid.len() as f64;
     let window = |points: usize| -> Vec<f64> {
+        if points < 3 {
+            // Its mean square would be another; along a side so short nothing is windowed.
+            return vec![1.0; points];
+        }
         (0..points)
             .map(|i| {
                 let phase = 2.0 * PI * (i as f64 + 0.5) / points as f64;
@@ -429,6 +445,29 @@ mod tests {
         let line = Grid::new([3, 1], [3.0, 1.0]);
         let moments = Statistics::from_heights(&line, &[0.0, 1.0, 2.0], Boundary::Free).moments;
         assert_eq!((2.0 * moments.m2, moments.m4), (1.0, 0.0));
+        // A profile along x or y: h = x^2.
+        for points in [[5, 1], [1, 5]] {
+            let line = Grid::new(points, points.map(|points| points as f64));
+            let squares = [0.0, 1.0, 4.0, 9.0, 16.0];
+            let moments = Statistics::from_heights(&line, &squares, Boundary::Free).moments;
+            assert_relative_eq!(moments.rms_curvature(), 2.0, max_relative = 1e-14);
+        }
+    }
+
+    /// The window keeps the mean square of a wave, also of a profile.
+    #[test]
+    fn the_spectrum_of_a_free_profile_has_its_mean_square() {
+        for points in [[64, 1], [1, 64], [64, 2]] {
+            let grid = Grid::new(points, [1.0, 1.0]);
+            let along = |i: usize| if points[0] == 1 { i } else { i % 64 };
+            let heights: Vec<f64> = (0..grid.len())
+                .map(|i| (2.0 * PI * 8.0 * along(i) as f64 / 64.0).sin())
+                .collect();
+            let rings = radial_spectrum(&grid, &heights, Boundary::Free);
+            let power = |ring: &SpectrumRing| ring.density * ring.modes as f64;
+            let square = 4.0 * PI * PI * rings.iter().map(power).sum::<f64>();
+            assert_relative_eq!(square, 0.5, max_relative = 1e-9);
+        }
     }
 
     #[test]
