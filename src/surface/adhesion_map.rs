@@ -136,7 +136,7 @@ fn read(
     let map = reading.read()?;
     let points = map.compare_points([grid.nx, grid.ny], "the grid");
     points
-        .and_then(|()| map.compare_size([grid.lx, grid.ly], "the grid"))
+        .and_then(|()| map.compare_size([grid.lx, grid.ly], "the grid", false))
         .map_err(wrong)?;
     Ok(map.heights)
 }

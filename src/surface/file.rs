@@ -74,20 +74,25 @@ impl HeightMap {
         })
     }
 
-    /// Refuses a map whose size differs from `size` (x, y), m.
+    /// Refuses a map whose size differs from `size` (x, y), m, along x or, unless it is a profile, along y.
     pub(super) fn compare_size(
         &self,
         size: [f64; 2],
         against: &'static str,
+        is_profile: bool,
     ) -> Result<(), FileError> {
+        // A profile repeats across, however far.
+        let axes = if is_profile { 1 } else { 2 };
+        let differs = |found: [f64; 2], i: usize| {
+            let off = (found[i] - size[i]).abs();
+            off > SIZE_MARGIN * size[i]
+        };
         match self.size {
-            Some(found) if (0..2).any(|i| (found[i] - size[i]).abs() > SIZE_MARGIN * size[i]) => {
-                Err(FileError::OtherSize {
-                    found,
-                    against,
-                    size,
-                })
-            }
+            Some(found) if (0..axes).any(|i| differs(found, i)) => Err(FileError::OtherSize {
+                found,
+                against,
+                size,
+            }),
             _ => Ok(()),
         }
     }

@@ -262,7 +262,9 @@ fn read_maps(
             map.compare_points(points, against).map_err(of_file)?;
         }
         if let Some((size, against)) = size {
-            map.compare_size(size, against).map_err(of_file)?;
+            let is_profile = file.preparation.profile;
+            map.compare_size(size, against, is_profile)
+                .map_err(of_file)?;
         }
         points = points.or(Some((map.points, "an earlier height file")));
         size = size.or(map.size.map(|size| (size, "an earlier height file")));

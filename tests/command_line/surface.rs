@@ -377,6 +377,14 @@ fn a_line_scan_is_refused_or_taken_as_a_profile() {
     close(quantity(&found, "rms_height"), 1e-8 / 2_f64.sqrt(), 1e-5);
     let slope = 1e-8 * std::f64::consts::TAU / 4e-6 / 2_f64.sqrt();
     close(quantity(&found, "rms_slope"), slope, 1e-5);
+    // Across it goes as far as the grid.
+    for (size, is_right) in [("4 um", true), ("3 um", false)] {
+        let keys = format!("points = [40, 8]\nsize = [\"{size}\", \"0.8 um\"]");
+        let scene = scene("profile = true\n").replace("points = [40, 8]", &keys);
+        fs::write(folder.join("c.toml"), scene).unwrap();
+        let output = tabor(folder, &["check", "c.toml"]);
+        assert_eq!(output.status.success(), is_right, "{}", errors(&output));
+    }
 }
 
 fn a_tilted_map_is_told() {
