@@ -369,6 +369,18 @@ fn images_of_nanoscope_that_are_named_as_heights_come_first() {
     }
 }
 
+#[test]
+fn channels_of_nanosurf_that_are_named_as_heights_come_first() {
+    let bytes = good("nanosurf.nid");
+    let deflection = with(
+        &bytes,
+        b"Dim2Name=Deflection\r\nDim2Unit=N",
+        b"Dim2Name=Deflection\r\nDim2Unit=m",
+    );
+    let [plain, found] = [bytes, deflection].map(|bytes| heights_of("a.nid", &bytes));
+    assert_eq!(found, plain);
+}
+
 /// 12 x 9 points of a scan size of 1 um for both sides.
 #[test]
 fn images_of_nanoscope_may_be_longer_along_one_axis() {

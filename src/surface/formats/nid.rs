@@ -1,6 +1,6 @@
 //! Nanosurf images (.nid): a header of text in sections, then blocks of integers.
 //!
-//! Reads the first channel whose values are lengths.
+//! Reads the first channel of lengths that is named as one of heights, else the first of lengths.
 //!
 //! # Source
 //! Nanosurf, "NID file format", and the headers of version 2.
@@ -19,6 +19,9 @@ const FORMAT: &str = ".nid";
 
 /// Longest header read; a header has some hundred lines of text.
 const LONGEST_HEADER: usize = 1 << 24;
+
+/// What the names of channels of heights begin with, lower case. Calibrated deflections and amplitudes are lengths too.
+const HEIGHTS: [&str; 3] = ["z-axis", "topography", "height"];
 
 /// What stands between the header and the numbers.
 const END: &[u8] = b"#!";
@@ -61,10 +64,20 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let sections = bracketed_sections(&bytes[..end]);
     let channels = channels(&sections);
     let length = |channel: &&Section| channel.find("Dim2Unit").and_then(length_unit);
-    let Some(first) = channels
+    let is_named = |channel: &&Section| {
+        let name = channel.find("Dim2Name").unwrap_or_default();
+        let name = name.trim().to_ascii_lowercase();
+        HEIGHTS.iter().any(|start| name.starts_with(start))
+    };
+    let named = channels
         .iter()
-        .position(|channel| length(channel).is_some())
-    else {
+        .position(|channel| length(channel).is_some() && is_named(channel));
+    let of_lengths = || {
+        channels
+            .iter()
+            .position(|channel| length(channel).is_some())
+    };
+    let Some(first) = named.or_else(of_lengths) else {
         let unit = channels
             .first()
             .and_then(|channel| channel.find("Dim2Unit"));
@@ -129,14 +142,17 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     };
     let others = channels
         .iter()
-        .filter(|channel| length(channel).is_some())
+        .filter(|channel| length(channel).is_some() && is_named(channel))
         .count();
+    let word = |key: &str| channel.find(key).unwrap_or_default();
+    let (name, frame) = (word("Dim2Name"), word("Frame"));
     if others > 1 {
-        let word = |key: &str| channel.find(key).unwrap_or_default();
         matrix.warnings.push(format!(
-            "the file holds {others} channels of heights; the first, {} of {}, is read",
-            word("Dim2Name"),
-            word("Frame")
+            "the file holds {others} channels of heights; the first, {name} of {frame}, is read"
+        ));
+    } else if others == 0 {
+        matrix.warnings.push(format!(
+            "the file names no channel as one of heights; the first of lengths, {name} of {frame}, is read"
         ));
     }
     Ok(matrix)
