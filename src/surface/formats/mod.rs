@@ -181,11 +181,12 @@ type Claim = fn(BufReader<File>) -> Option<[usize; 2]>;
 
 /// Formats whose length does not tell how much memory their numbers take: compressed ones, and
 /// those that may store one byte a number.
-const CLAIMS: [(&[&[u8]], Claim); 4] = [
+const CLAIMS: [(&[&[u8]], Claim); 5] = [
     (&[npy::MAGIC], npy::claimed_points),
     (&[x3p::MAGIC], x3p::claimed_points),
     (&[png::MAGIC], png::claimed_points),
     (&tiff::MAGIC, tiff::claimed_points),
+    (&vk4::MAGIC, vk4::claimed_points),
 ];
 
 /// Points along x and y that the header of an image or an array claims.
@@ -414,6 +415,22 @@ mod tests {
                     format.name
                 );
             }
+        }
+    }
+
+    #[test]
+    #[cfg(feature = "images")]
+    fn headers_claim_their_points() {
+        let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/files");
+        for name in [
+            "numpy_half.npy",
+            "mountains.x3p",
+            "pillow_16.png",
+            "tifffile_16.tif",
+            "description.vk4",
+            "description.vk6",
+        ] {
+            assert_eq!(claimed_points(&folder.join(name)), Some([12, 9]), "{name}");
         }
     }
 

@@ -4,7 +4,10 @@
 //! # Source
 //! Keyence, "VK4 file format", as in Walker, "vk4-driver", OSTI 1419732 (2017).
 
-use super::bytes::{Bytes, checked_shape};
+use std::fs::File;
+use std::io::BufReader;
+
+use super::bytes::{Bytes, Opening, checked_shape};
 use crate::surface::error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
@@ -27,6 +30,13 @@ const PICOMETRE: f64 = 1e-12;
 
 /// Bytes of the palette before the heights.
 const PALETTE: usize = 768;
+
+/// Points along x and y, which the length of an archive does not tell.
+pub(super) fn claimed_points(file: BufReader<File>) -> Option<[usize; 2]> {
+    let length = usize::try_from(file.get_ref().metadata().ok()?.len()).ok()?;
+    let map = read(Bytes::new(file, length, Opening::Glance)).ok()?;
+    Some([map.columns, map.rows])
+}
 
 /// Reads the first map of heights.
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
