@@ -508,6 +508,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("no_image.spm", text("\\*File list\r\n\\Version: 1\r\n\\*File list end\r\n"), "its header names no image"),
         ("phase.spm", with(&with(&spm, b"V [Sens. Zsens]", b"V [Sens. Xsens]"), b"V [Sens. Zsens]", b"V [Sens. Xsens]"), "which is not a length"),
         ("cut.spm", spm[..6100].to_vec(), "9 rows of 12 columns need 216 bytes, there are 100"),
+        ("length.spm", with(&spm, b"Data length: 216", b"Data length: 108"), "broken Nanoscope file at byte 0: 108 bytes for an image of 12 x 9 points"),
         ("points.spm", with(&spm, b"Samps/line: 12", b"Samps/line: xx"), "an image has no whole number as \"samps/line\""),
         ("type.ibw", patched(&ibw, 80, &[1]), "broken .ibw file at byte 80: numbers of the unknown type 1"),
         ("points.ibw", patched(&ibw, 132, &[13]), "324 numbers as 13 x 9 x 3 x 0 points"),

@@ -53,7 +53,12 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let [rows, columns] = shape;
     // From version 9.2 on two bytes of resolution are stored in four.
     let resolution = number("bytes/pixel")?;
-    let stored = number("data length")? / (rows * columns) as i64;
+    let length = number("data length")?;
+    let stored = length / (rows * columns) as i64;
+    if stored < 2 {
+        let what = format!("{length} bytes for an image of {columns} x {rows} points");
+        return Err(file.broken(0, what));
+    }
     let start = usize::try_from(number("data offset")?).unwrap_or(usize::MAX);
     if !(resolution == 2 || resolution == 4) {
         return Err(file.broken(
