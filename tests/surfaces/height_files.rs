@@ -369,6 +369,23 @@ fn images_of_nanoscope_that_are_named_as_heights_come_first() {
     }
 }
 
+/// Lengths are in nm, and so are heights unless they have a unit of their own.
+#[test]
+fn texts_of_spip_say_their_lengths() {
+    let head = "# File Format = ASCII\r\n# Created by Gwyddion 2.62\r\n# x-pixels = 3\r\n# y-pixels = 2\r\n# x-length = 300\r\n\
+                # y-length = 200.0\r\n# Bit2nm = 1.0\r\n";
+    let rows = "# Start of Data:\r\n1\t2\t3\r\n4\t5\t6\r\n";
+    for (more, unit) in [
+        ("", 1e-9),
+        ("# z-unit = \u{b5}m\r\n# voidpixels = 0\r\n", 1e-6),
+    ] {
+        let found = surface_of("a.asc", format!("{head}{more}{rows}").as_bytes());
+        assert_relative_eq!(found.grid.lx, 300e-9, max_relative = 1e-12);
+        assert_relative_eq!(found.grid.ly, 200e-9, max_relative = 1e-12);
+        assert_relative_eq!(found.heights[5], 6.0 * unit, max_relative = 1e-12);
+    }
+}
+
 #[test]
 fn channels_of_nanosurf_that_are_named_as_heights_come_first() {
     let bytes = good("nanosurf.nid");
@@ -592,6 +609,8 @@ fn bad_files_are_refused_in_a_sentence() {
         ("order_7.grd", with(&grd_7, b"GRID", b"NONE"), "its DATA section stands before its GRID section"),
         ("section_7.grd", patched(&grd_7, 16, &[0xff; 4]), "the next section is said to begin at byte"),
         ("steps_7.grd", patched(&grd_7, 20 + 8 + 16, &[0; 8]), "are not positive"),
+        // Texts.
+        ("void.asc", text("# File Format = ASCII\n# voidpixels = 1\n1 2\n3 4\n0 1\n0 0\n"), "texts of SPIP with void pixels are not in this version; save it as .gsf or .gwy"),
         // Columns.
         ("pairs.xyz", text("1 2\n3 4\n"), "the points x, y, z do not form a grid: its lines have 2 numbers; x, y and z are expected"),
         ("twice.xyz", text("0 0 1\n1 0 2\n0 1 3\n0 1 4\n"), "row 4 lies at x = 0, y = 1, as a row above"),

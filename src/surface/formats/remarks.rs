@@ -29,6 +29,10 @@ pub(super) struct Remarks {
     other_unit: Option<String>,
     /// Metres per unit of x and y of points with coordinates.
     lateral_unit: Option<f64>,
+    /// Whether it is a text of SPIP, whose entries have other names.
+    is_spip: bool,
+    /// Whether a mask of void pixels follows the numbers.
+    pub has_void_pixels: bool,
     /// Of the header line.
     heads: Heads,
     /// Of comments above the numbers, for each number of units the last.
@@ -118,6 +122,9 @@ impl Remarks {
     /// Reads a comment: `# Width: 5.0 um`, `# Height: 5.0 um`, `# Value units: m`, `# Lateral units: um`.
     pub fn take_comment(&mut self, comment: &str) {
         let comment = comment.trim_start_matches(COMMENT);
+        if let Some((name, value)) = comment.split_once('=') {
+            self.take_entry_of_spip(name.trim(), value.trim());
+        }
         let Some((name, value)) = comment.split_once(':') else {
             return;
         };
@@ -125,16 +132,40 @@ impl Remarks {
         match name.trim().to_ascii_lowercase().as_str() {
             "width" => self.width = length,
             "height" => self.height = length,
-            "value units" => {
-                self.unit = unit;
-                let is_other = unit.is_none() && !value.trim().is_empty();
-                self.other_unit = is_other.then(|| value.trim().to_owned());
-            }
+            "value units" => self.take_unit(value),
             "lateral units" => self.lateral_unit = unit,
             _ => {}
         }
         self.last = [self.last[1], self.last[2], (length, unit)];
         self.take_by_order();
+    }
+
+    fn take_unit(&mut self, unit: &str) {
+        let unit = unit.trim();
+        self.unit = length_unit(unit);
+        let is_other = self.unit.is_none() && !unit.is_empty();
+        self.other_unit = is_other.then(|| unit.to_owned());
+    }
+
+    /// Reads a comment of SPIP, or as Gwyddion exports for it: `# x-length = 300`, in nm.
+    ///
+    /// # Source
+    /// Gwyddion, `spip-asc.c`.
+    fn take_entry_of_spip(&mut self, name: &str, value: &str) {
+        self.is_spip |= (name, value) == ("File Format", "ASCII");
+        if !self.is_spip {
+            return;
+        }
+        let nanometres = || length(&format!("{value} nm"));
+        match name {
+            "x-length" => self.width = nanometres(),
+            "y-length" => self.height = nanometres(),
+            // The unit counts, where it is given too.
+            "Bit2nm" => self.unit = self.unit.or_else(nanometres),
+            "z-unit" => self.take_unit(value),
+            "voidpixels" => self.has_void_pixels = value.parse() != Ok(0.0),
+            _ => {}
+        }
     }
 
     /// Gwyddion writes width, height and unit in this order, with names in the language of its user.

@@ -169,6 +169,12 @@ impl Text {
             is_first = false;
         }
         self.separator = marks.separator();
+        if self.remarks.has_void_pixels {
+            return Err(FileError::NotSupported {
+                what: "texts of SPIP with void pixels",
+                instead: "save it as .gsf or .gwy",
+            });
+        }
         Ok(())
     }
 
