@@ -77,7 +77,7 @@ pub(super) fn build(
     };
     let (path, factors) = match map {
         AdhesionMap::File(path) => {
-            let wrong = |problem: FileError| named(path, problem.into());
+            let wrong = |problem: FileError| named(path, of_file(problem));
             (path.clone(), read(path, grid, share, &wrong)?)
         }
         AdhesionMap::Factors(factors) => {
@@ -104,6 +104,25 @@ pub(super) fn build(
     }
     checked.map_err(|problem| named(&path, problem))?;
     Ok(Some(factors))
+}
+
+/// What to do with a map of other points.
+const EACH_POINT: &str = "; a map has a factor for each point of the grid";
+
+/// What a factor must be.
+const ALLOWED: &str = "it must be finite and at least 0";
+
+/// A missing factor is a wrong one: there is nothing to fill it from.
+fn of_file(problem: FileError) -> MapError {
+    match problem {
+        FileError::Missing { row, column, .. } => MapError::Factor {
+            row,
+            column,
+            value: f64::NAN,
+            remedy: ALLOWED,
+        },
+        other => other.into(),
+    }
 }
 
 /// Of grey images black means no attraction, white the full law.
@@ -134,7 +153,7 @@ fn read(
         wrong,
     };
     let map = reading.read()?;
-    let points = map.compare_points([grid.nx, grid.ny], "the grid");
+    let points = map.compare_points([grid.nx, grid.ny], "the grid", EACH_POINT);
     points
         .and_then(|()| map.compare_size([grid.lx, grid.ly], "the grid", false))
         .map_err(wrong)?;
@@ -230,7 +249,7 @@ fn check(factors: &[f64], law: LawName, grid: &Grid, share: &Share) -> Result<()
             remedy: if core {
                 "it must be above 0: with law = \"lennard-jones\" the factor also multiplies the repulsion"
             } else {
-                "it must be finite and at least 0"
+                ALLOWED
             },
         });
     }

@@ -83,7 +83,7 @@ impl Reading<'_> {
         if let Some(points) = self.repeats {
             let from = share_of(map.points);
             map.points[1] = points[1];
-            let fits = map.compare_points(points, "[grid] points");
+            let fits = map.compare_points(points, "[grid] points", file::OTHER_POINTS);
             fits.map_err(self.wrong)?;
             // One that has ended is seen below.
             let _ = map.repeat(&from, &share_of(points));

@@ -22,6 +22,10 @@ const EDGE_JUMP: f64 = 3.0;
 /// Share of the rms height from which a plane through a map is a tilt.
 const TILTED: f64 = 0.1;
 
+/// What to do with heights of other points.
+pub(super) const OTHER_POINTS: &str =
+    "; leave points out to take those of the file, or give the file resample = [nx, ny]";
+
 /// Heights read from a file, ready to be added.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct HeightMap {
@@ -51,11 +55,12 @@ impl HeightMap {
         Ok(())
     }
 
-    /// Refuses a map whose number of points differs from `points` (x, y).
+    /// Refuses a map whose number of points differs from `points` (x, y), with a hint what to do.
     pub(super) fn compare_points(
         &self,
         points: [usize; 2],
         against: &'static str,
+        hint: &'static str,
     ) -> Result<(), FileError> {
         if self.points == points {
             return Ok(());
@@ -69,7 +74,7 @@ impl HeightMap {
             hint: if [rows, columns] == points {
                 "; rows of a file are y and columns x: transpose it, or swap the two numbers"
             } else {
-                "; leave points out to take those of the file, or give the file resample = [nx, ny]"
+                hint
             },
         })
     }

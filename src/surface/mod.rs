@@ -259,7 +259,8 @@ fn read_maps(
         };
         let map = map.read()?;
         if let Some((points, against)) = points {
-            map.compare_points(points, against).map_err(of_file)?;
+            map.compare_points(points, against, file::OTHER_POINTS)
+                .map_err(of_file)?;
         }
         if let Some((size, against)) = size {
             let is_profile = file.preparation.profile;

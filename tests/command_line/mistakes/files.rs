@@ -90,7 +90,8 @@ fn table() -> Vec<BadFile> {
         BadFile { name: "even.png", bytes: GREY.to_vec(), more: "black = 1\nwhite = 1", variant: "FileError::GreyEndsEqual", expected: "black and white are both 1e0 m: an image of one height" },
         good("black = 0\nwhite = 1", "FileError::GreyEndsUnused", "black and white are for grey images; this file holds heights"),
         good("[[surface]]\nkind = \"file\"\npath = \"other.txt\"", "FileError::NotFound", "[[surface]] 2: FOLDER/other.txt: there is no such file"),
-        good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"wide.csv\"", "SurfaceError::AdhesionMap", "[adhesion] map FOLDER/wide.csv: the map has 4 x 2 points (x, y), but the grid has 3 x 2"),
+        good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"wide.csv\"", "SurfaceError::AdhesionMap", "[adhesion] map FOLDER/wide.csv: the map has 4 x 2 points (x, y), but the grid has 3 x 2; a map has a factor for each point of the grid"),
+        good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"hole.txt\"", "MapError::Factor", "[adhesion] map FOLDER/hole.txt: row 1, column 2: a factor of NaN; it must be finite and at least 0"),
         good("[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"zeros.txt\"", "MapError::Factor", "[adhesion] map FOLDER/zeros.txt: row 1, column 1: a factor of 0e0; it must be above 0"),
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"lengths.txt\"", "FileError::LengthsAsFactors", "[adhesion] map FOLDER/lengths.txt: the file gives its numbers in units of 1e-9 m, and factors have none; save them without a unit"),
         good("[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-2\nrange = 1e-8\nmap = \"zeros.txt\"", "MapError::Nothing", "every factor is 0; leave [adhesion] out"),
@@ -110,6 +111,7 @@ fn refused(bad: &BadFile) -> Reached {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("wide.csv"), "1,2,3,4\n5,6,7,8\n").expect("a file");
     fs::write(folder.path().join("zeros.txt"), "0 0 0\n0 0 0\n").expect("a file");
+    fs::write(folder.path().join("hole.txt"), "1 nan 1\n1 1 1\n").expect("a file");
     let lengths = "# Value units: nm\n1 1 1\n1 1 1\n";
     fs::write(folder.path().join("lengths.txt"), lengths).expect("a file");
     fs::write(folder.path().join(bad.name), &bad.bytes).expect("a file");
