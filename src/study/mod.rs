@@ -43,6 +43,8 @@ pub use path::{walk, walk_on};
 #[cfg(feature = "cli")]
 pub(crate) use plan::PIXELS_A_WAVE;
 pub use plan::Plan;
+#[cfg(feature = "cli")]
+pub(crate) use plausible::of_surface as implausible_surface;
 pub use pull_off::{PullOff, Tension};
 pub use regime::{AUTO_TAPER, Regime, resolve_law};
 pub use row::{Column, State, StepRow};

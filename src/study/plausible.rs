@@ -1,6 +1,8 @@
 //! Quantities beyond what solids and instruments have, with the slip of units that makes them.
 
 use super::plan::Plan;
+#[cfg(feature = "cli")]
+use crate::grid::Grid;
 use crate::units::format_si;
 
 /// Largest side of a map, m.
@@ -32,29 +34,44 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
             format_si(modulus, "Pa")
         ));
     }
-    if side > SIDE {
-        found.push(format!(
-            "a map {} wide is no surface that touches: was the size meant in um or nm?",
-            format_si(side, "m")
-        ));
-    }
+    found.extend(of_side(side));
     if let Some(radius) = tip.filter(|radius| *radius >= TIP) {
         found.push(format!(
             "a radius of {} at the tip of a cantilever: was it meant in um or nm?",
             format_si(radius, "m")
         ));
     }
-    if slope > SLOPE {
+    found.extend(of_slope(slope));
+    found
+}
+
+/// The same of a surface alone.
+#[cfg(feature = "cli")]
+pub(crate) fn of_surface(grid: &Grid, rms_slope: f64) -> Vec<String> {
+    let found = [of_side(grid.lx.max(grid.ly)), of_slope(rms_slope)];
+    found.into_iter().flatten().collect()
+}
+
+fn of_side(side: f64) -> Option<String> {
+    (side > SIDE).then(|| {
+        format!(
+            "a map {} wide is no surface that touches: was the size meant in um or nm?",
+            format_si(side, "m")
+        )
+    })
+}
+
+fn of_slope(slope: f64) -> Option<String> {
+    (slope > SLOPE).then(|| {
         // Of heights in nm it is a thousand million times too large.
         let shown = if slope < 1e4 {
             format!("{slope:.3}")
         } else {
             format!("{slope:.2e}")
         };
-        found.push(format!(
+        format!(
             "an rms slope of {shown}, {:.0} degrees, is steeper than surfaces are: were the heights meant in another unit than the size?",
             slope.atan().to_degrees()
-        ));
-    }
-    found
+        )
+    })
 }

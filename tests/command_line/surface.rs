@@ -387,6 +387,23 @@ fn a_line_scan_is_refused_or_taken_as_a_profile() {
     }
 }
 
+fn heights_in_another_unit_than_the_size_are_told() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    // Heights in nm.
+    fs::write(folder.join("map.txt"), "1 4 2\n3 1 5\n2 6 1\n").unwrap();
+    for (unit, is_told) in [("m", true), ("nm", false)] {
+        let output = tabor(
+            folder,
+            &["surface", "map.txt", "--size", "4 um", "--unit", unit],
+        );
+        assert!(output.status.success(), "{}", errors(&output));
+        let told =
+            errors(&output).contains("were the heights meant in another unit than the size?");
+        assert_eq!(told, is_told, "{}", errors(&output));
+    }
+}
+
 fn a_tilted_map_is_told() {
     let place = tempfile::tempdir().unwrap();
     let folder = place.path();
@@ -731,6 +748,7 @@ tests![
     a_size_that_stretches_a_map_is_warned_of,
     height_parameters_distribution_and_scales_of_a_sine,
     a_line_scan_is_refused_or_taken_as_a_profile,
+    heights_in_another_unit_than_the_size_are_told,
     a_tilted_map_is_told,
     maps_are_cropped_cleaned_closed_and_resampled,
     the_statistics_of_an_egg_box_are_exact,

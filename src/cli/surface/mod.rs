@@ -20,6 +20,7 @@ use crate::run::memory_check;
 use crate::scene::{
     Boundary, Detrend, Edges, FieldName, Fill, GridScene, HeightFileScene, Preparation, SurfacePart,
 };
+use crate::study::implausible_surface;
 use crate::surface::{Surface, SurfaceError};
 use crate::units::{Dimension, RANGE_WORDS, in_range};
 use measured::measured_scene;
@@ -198,12 +199,10 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         (surface, boundary, Some(part))
     };
     let report = Report::new(source, &surface, boundary);
+    let slope = report.statistics.moments.rms_slope();
     let measured = match &part {
         None => None,
-        Some(part) => {
-            let slope = report.statistics.moments.rms_slope();
-            Some(measured_scene(arguments, part, &surface, slope, &path)?)
-        }
+        Some(part) => Some(measured_scene(arguments, part, &surface, slope, &path)?),
     };
     let folder = RunFolder::open(&path, &format!("surface of {}", source.display()))?;
     for warning in &surface.warnings {
@@ -212,6 +211,9 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         } else {
             warn(&with_file_options(plain(warning)));
         }
+    }
+    for warning in implausible_surface(&surface.grid, slope) {
+        warn(&warning);
     }
     // The table first: it stands even where no picture can be written.
     print(&report.text())?;
