@@ -86,10 +86,16 @@ impl Grid {
     /// The longer side of a pixel, m, which bounds what the grid resolves. Along an axis of one point nothing varies, so that
     /// the length of its pixel does not count.
     pub fn longer_pixel(&self) -> f64 {
+        let [x, y] = self.varying([self.dx(), self.dy()]);
+        x.max(y)
+    }
+
+    /// Lengths along x and y, of which that along an axis of one point is the other one, too.
+    pub(crate) fn varying(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         match [self.nx, self.ny] {
-            [1, ny] if ny > 1 => self.dy(),
-            [nx, 1] if nx > 1 => self.dx(),
-            _ => self.dx().max(self.dy()),
+            [1, ny] if ny > 1 => [y, y],
+            [nx, 1] if nx > 1 => [x, x],
+            _ => [x, y],
         }
     }
 

@@ -58,8 +58,12 @@ pub(crate) fn autocorrelation(grid: &Grid, heights: &[f64], boundary: Boundary) 
     }
     let products = fourier::synthesise(&padded, spectrum);
 
-    let pixel = grid.dx().min(grid.dy());
-    let farthest = 0.5 * grid.lx.min(grid.ly);
+    let shorter = |lengths: [f64; 2]| {
+        let [x, y] = grid.varying(lengths);
+        x.min(y)
+    };
+    let pixel = shorter([grid.dx(), grid.dy()]);
+    let farthest = 0.5 * shorter([grid.lx, grid.ly]);
     let mut rings = vec![(0.0, 0.0, 0_usize); (farthest / pixel) as usize + 1];
     for (index, product) in products.iter().enumerate() {
         let lags = [
@@ -102,6 +106,30 @@ mod tests {
             .map(|i| 3.0 + wave(i % points) + wave(i / points))
             .collect();
         (grid, heights)
+    }
+
+    /// However far it goes across, where nothing varies.
+    #[test]
+    fn a_profile_has_its_length_along_it() {
+        let wave = |i: usize| (2.0 * PI * 4.0 * i as f64 / 64.0).cos();
+        let heights: Vec<f64> = (0..64).map(wave).collect();
+        let length = |points, size| {
+            correlation_length(&Grid::new(points, size), &heights, Boundary::Free)
+                .expect("a length")
+        };
+        let expected = length([64, 1], [1.0, 1.0]);
+        for across in [1e-3, 30.0] {
+            assert_relative_eq!(
+                length([64, 1], [1.0, across]),
+                expected,
+                max_relative = 1e-12
+            );
+            assert_relative_eq!(
+                length([1, 64], [across, 1.0]),
+                expected,
+                max_relative = 1e-12
+            );
+        }
     }
 
     #[test]

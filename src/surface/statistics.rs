@@ -112,7 +112,8 @@ pub(crate) fn fine_spectrum(grid: &Grid, heights: &[f64], boundary: Boundary) ->
 
 /// Wave number of the longest wave of a map, 1/m.
 pub(crate) fn first_wavenumber(grid: &Grid) -> f64 {
-    2.0 * PI / grid.lx.max(grid.ly)
+    let [x, y] = grid.varying([grid.lx, grid.ly]);
+    2.0 * PI / x.max(y)
 }
 
 /// Means over the modes with the same ring number `ring_of`, by rising number.

@@ -310,9 +310,10 @@ impl<'a> Report<'a> {
     /// patch, and sampling folds waves of a few pixels back.
     fn reliable(&self) -> [f64; 2] {
         let grid = &self.surface.grid;
+        let [x, y] = grid.varying([grid.lx, grid.ly]);
         let longest = match self.boundary {
-            Boundary::Periodic => grid.lx.max(grid.ly),
-            Boundary::Free => 0.5 * grid.lx.min(grid.ly),
+            Boundary::Periodic => x.max(y),
+            Boundary::Free => 0.5 * x.min(y),
         };
         [longest, RELIABLE_PIXELS * grid.longer_pixel()]
     }
