@@ -92,7 +92,9 @@ pub(super) fn gw_m(comparison: &Comparison, table: &mut Table) -> Result<(), Sto
         let reduced = gw_m::reduced_pull_off(theta)?;
         let at = state(reduced.0)?;
         tension = gw_m::pull_off(&summits)?;
-        table.add(at, Some(tension), limit(&at))?;
+        if tension > 0.0 {
+            table.add(at, Some(tension), limit(&at))?;
+        }
     }
     for load in comparison.carried(tension) {
         let mut at = state(gw_m::separation(&summits, load)?)?;

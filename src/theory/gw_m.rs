@@ -17,7 +17,7 @@ pub fn reduced_pressure(theta: f64, separation: f64) -> Result<f64, TheoryError>
     Ok(2.0 / (3.0 * PI) * theta * tail_three_halves(separation)? - tail_zero(separation))
 }
 
-/// Separation and magnitude of the greatest tension.
+/// Separation and magnitude of the greatest tension, which is 0 if it is below the least number, as for rough surfaces.
 ///
 /// There `(theta/pi) F_(1/2)` equals the density; their ratio decreases with the separation.
 #[doc(hidden)]
@@ -25,7 +25,9 @@ pub fn reduced_pull_off(theta: f64) -> Result<(f64, f64), TheoryError> {
     let theta = positive("theta", theta)?;
     // In logarithms, since the ratio spans many decades.
     let excess = |t: f64| scaled_tail(2, t).map_or(f64::NAN, |tail| (theta / PI * tail).ln());
-    let separation = root("a pull-off", excess, -25.0, 300.0, 1e-14)?;
+    // Far away the tail is sqrt(pi)/2 t^(-3/2).
+    let far = theta.cbrt().powi(2).max(300.0);
+    let separation = root("a pull-off", excess, -25.0, far, 1e-14)?;
     // The two parts nearly cancel at large separations; divided by the density they stay of order
     // 1.
     let attraction = scaled_tail_zero(separation);
@@ -68,4 +70,31 @@ pub fn separation(summits: &Summits, pressure: f64) -> Result<f64, TheoryError> 
     };
     let excess = |t: f64| self::pressure(summits, t).map_or(f64::NAN, |p| p - pressure);
     root("an equilibrium", excess, -25.0, far, 1e-14)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::theory::Sphere;
+
+    /// A rough surface hardly attracts, and has the separations of its loads nevertheless: (4/3) n E* sqrt(R) sigma^(3/2) F_(3/2)(t), which at
+    /// t = 0 is 0.43002 of it.
+    #[test]
+    fn a_rough_surface_has_no_pull_off_and_all_its_loads() {
+        for theta in [1e2, 2e4, 1e9, 1e30] {
+            let (separation, tension) = reduced_pull_off(theta).unwrap();
+            // The condition of the extremum, by the tail far away.
+            let tail = 0.5 * PI.sqrt() * separation.powf(-1.5);
+            assert!((theta / PI * tail - 1.0).abs() < 0.01 || theta < 1e3);
+            assert!(tension >= 0.0 && (tension == 0.0 || theta < 1e3));
+        }
+        let sphere = Sphere::new(1.0, 1.0, 1e-6).unwrap();
+        let summits = Summits::new(sphere, 1.0, 1.0).unwrap();
+        assert!(
+            separation(&summits, 4.0 / 3.0 * 0.430_019_994)
+                .unwrap()
+                .abs()
+                < 1e-5
+        );
+    }
 }

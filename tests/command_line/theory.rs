@@ -691,6 +691,26 @@ fn spectra_have_the_reference_values() {
     assert_eq!(sticks.words("sticky"), ["yes", "no"]);
 }
 
+/// A rough and stiff surface has a table: its pull-off is below the least number, or there is none.
+fn surfaces_without_pull_off_have_their_tables() {
+    let rough = "--radius \"10 um\" --density \"0.01 1/um^2\" --rms_height \"1 um\" --contact_modulus \"100 GPa\" --points 3";
+    let hard = Table::from_example("gw", rough).column("mean_pressure");
+    for model in ["gw-m", "fuller-tabor"] {
+        let call = format!("{rough} --work_of_adhesion \"50 mJ/m^2\"");
+        let table = Table::from_example(model, &call);
+        assert_eq!(table.note("pull_off_pressure"), 0.0, "{model}");
+        close(table.column("mean_pressure")[0], hard[0], 1e-3);
+    }
+    let bam = Table::from_example(
+        "bam",
+        "--rms_height \"100 nm\" --rolloff \"10 um\" --contact_modulus \"1 GPa\" --work_of_adhesion 0.05 --range \"1 nm\" --points 3",
+    );
+    let none = |line: &String| line.starts_with("# pull_off_pressure: none");
+    assert!(bam.comments.iter().any(none), "{:?}", bam.comments);
+    // (3/8) q0 h E* less the tension times the normal distribution from 0 to 0.01.
+    close(bam.column("mean_pressure")[0], 23_362_477.1, 1e-8);
+}
+
 const SPHERE: &str = "--radius 1e-6 --contact_modulus 1e9";
 
 fn bad_calls_say_what_is_wrong() {
@@ -795,6 +815,7 @@ tests![
     waves_have_the_reference_values,
     summits_have_the_reference_values,
     spectra_have_the_reference_values,
+    surfaces_without_pull_off_have_their_tables,
     bad_calls_say_what_is_wrong,
     help_is_there_on_both_levels,
     a_closed_pipe_is_no_failure,

@@ -55,7 +55,8 @@ impl Table {
     pub fn note(&mut self, name: &str, value: f64, unit: &str) {
         let space = if unit.is_empty() { "" } else { " " };
         self.notes.push(if value.is_finite() {
-            format!("{name} = {value:?}{space}{unit}")
+            // Adding zero makes a minus zero a plain one.
+            format!("{name} = {:?}{space}{unit}", value + 0.0)
         } else {
             format!("{name}: beyond the range of numbers")
         });

@@ -180,9 +180,16 @@ fn bam_table(values: &Values) -> Result<Table, Failure> {
         let pressure = tension * model.pressure(gap / height);
         numbers([gap, pressure])
     })?;
-    let (gap, pull_off) = model.pull_off()?;
-    table.note("pull_off_pressure", -tension * pull_off, "Pa");
-    table.note("pull_off_mean_gap", height * gap, "m");
+    match model.pull_off() {
+        Ok((gap, pull_off)) => {
+            table.note("pull_off_pressure", -tension * pull_off, "Pa");
+            table.note("pull_off_mean_gap", height * gap, "m");
+        }
+        Err(TheoryError::OutOfRange { .. }) => table
+            .notes
+            .push("pull_off_pressure: none, repulsion exceeds attraction at every gap".to_owned()),
+        Err(error) => return Err(error.into()),
+    }
     Ok(table)
 }
 
