@@ -267,6 +267,9 @@ impl RoughContact {
     }
 }
 
+/// Ranges beyond which an exponential law is below rounding.
+const FADED: f64 = 40.0;
+
 /// Mean of the law's traction (in w/range) over a cell's folded distribution.
 fn mean_traction(law: Law, cell: &GapCell, range: f64) -> Result<f64, TheoryError> {
     let (mean, width) = (cell.mean / range, cell.width / range);
@@ -277,13 +280,14 @@ fn mean_traction(law: Law, cell: &GapCell, range: f64) -> Result<f64, TheoryErro
         let z = (u - mean) / width;
         law.traction(u.abs()) * super::special::normal_density(z) / width
     };
-    // The folded law has a corner at 0, and Dugdale's a step at the range.
+    // The folded law has a corner at 0, and Dugdale's a step at the range. Panels from one end of a wide distribution to the
+    // other would miss a law that is far narrower.
     let (low, high) = (mean - 8.0 * width, mean + 8.0 * width);
     let mut marks = vec![low];
     let corners = if law == Law::Dugdale {
         vec![-1.0, 0.0, 1.0]
     } else {
-        vec![0.0]
+        vec![-FADED, 0.0, FADED]
     };
     marks.extend(corners.into_iter().filter(|c| (low..high).contains(c)));
     marks.push(high);
@@ -315,5 +319,20 @@ mod tests {
             - contact.mean_gap(pressure * (1.0 + step)).unwrap();
         let slope = 2.0 * step * pressure / change;
         assert!((slope / contact.stiffness(pressure).unwrap() - 1.0).abs() < 1e-6);
+    }
+    /// By a sum over 240 magnifications and graded panels from gap 0 on (NumPy); without such panels it was 6 % less.
+    #[test]
+    fn an_exponential_law_far_shorter_than_the_roughness_is_not_missed() {
+        let wave = |length: f64| 2.0 * PI / length;
+        let spectrum = Spectrum::new([wave(1e-4), wave(1e-4), wave(1e-6)], 0.8, 1e-6).unwrap();
+        let contact = RoughContact::new(Persson::new(0.5).unwrap(), spectrum, 1e6).unwrap();
+        let adhesion = Adhesion {
+            law: Law::Exponential,
+            work_of_adhesion: 0.05,
+            range: 0.5e-9,
+        };
+        let pressure = 1e-3 * 1e6 * spectrum.rms_slope();
+        let found = contact.attraction(&adhesion, pressure).unwrap();
+        assert!((found / 13_204.1 - 1.0).abs() < 1e-3, "{found}");
     }
 }
