@@ -26,7 +26,7 @@ def rms_height(hurst, slope):
 
 
 def persson(hurst, slope, reach):
-    """Greatest mean tension, Pa; NaN where it is not between 1e-5 and 1 of E* h', where that theory looks."""
+    """Greatest mean tension, Pa; NaN where that theory finds none from 1e-5 of E* h' on."""
     height = rms_height(hurst, slope)
     try:
         return theory.persson.pull_off(hurst, LONGEST, ROLLOFF, SHORTEST, height, MODULUS, WORK, reach, law="maugis-dugdale")[0]

@@ -213,28 +213,36 @@ impl RoughContact {
         Ok(pressure - self.attraction(adhesion, pressure)?)
     }
 
-    /// The greatest net tension; the repulsive pressure is sought between 1e-5 and 1 of
-    /// `E* h'_rms`.
+    /// The greatest net tension; the repulsive pressure is sought from 1e-5 of `E* h'_rms` to full contact, and below
+    /// that if an attraction of long range holds surfaces that hardly touch.
     pub fn pull_off(&self, adhesion: &Adhesion) -> Result<PullOff, TheoryError> {
         let unit = self.contact_modulus * self.spectrum.rms_slope();
         let net = |log: f64| {
             self.net_pressure(adhesion, unit * log.exp())
                 .unwrap_or(f64::NAN)
         };
-        let scan = 14;
-        let place = |i: usize| 1e-5_f64.ln() * (1.0 - i as f64 / scan as f64);
+        // Places 0 to 14 lead to 1; at 17, which is 12, all is in contact and nothing attracts.
+        let place = |i: i32| 1e-5_f64.ln() * (1.0 - f64::from(i) / 14.0);
+        let (least_place, last) = (-20, 17);
         let mut best = (0, f64::INFINITY);
-        for i in 0..=scan {
+        for i in 0..=last {
             let value = net(place(i));
             if value < best.1 {
                 best = (i, value);
             }
         }
+        while best.0 <= 0 && best.0 > least_place && best.1 < 0.0 {
+            let value = net(place(best.0 - 1));
+            if value.is_nan() || value >= best.1 {
+                break;
+            }
+            best = (best.0 - 1, value);
+        }
         within(
             "repulsive pressure at pull-off",
             place(best.0).exp(),
-            best.1 < 0.0 && best.0 > 0 && best.0 < scan,
-            "between 1e-5 and 1 of E* h'_rms",
+            best.1 < 0.0,
+            "1e-5 of E* h'_rms or more",
         )?;
         let (log, least) = minimum(net, place(best.0 - 1), place(best.0 + 1));
         Ok(PullOff {
@@ -320,6 +328,31 @@ mod tests {
         let slope = 2.0 * step * pressure / change;
         assert!((slope / contact.stiffness(pressure).unwrap() - 1.0).abs() < 1e-6);
     }
+
+    /// Peak tensions 1 of 1/1000 and 15 586 times E* h'_rms. A tension that reaches over all gaps is held before anything is pressed. The
+    /// greatest one of a range far shorter than the roughness lies close to full contact: a sum over 240 magnifications by NumPy has 439.30
+    /// at a pressure of 0.7, and less at 0.6 and 0.8.
+    #[test]
+    fn pull_off_is_found_at_hardly_any_and_at_nearly_full_contact() {
+        let contact = |wavenumbers: [f64; 3]| {
+            let spectrum = Spectrum::new(wavenumbers, 0.8, 1.0).unwrap();
+            RoughContact::new(Persson::new(0.5).unwrap(), spectrum, 1.0).unwrap()
+        };
+        let greatest = |contact: &RoughContact, tension: f64, range: f64| {
+            let unit = contact.spectrum.rms_slope();
+            let adhesion = Adhesion {
+                law: Law::Dugdale,
+                work_of_adhesion: tension * unit * range,
+                range,
+            };
+            contact.pull_off(&adhesion).unwrap().tension / unit
+        };
+        let long = greatest(&contact([1.0, 4.0, 128.0]), 1e-3, 20.0);
+        assert!((long / 1e-3 - 1.0).abs() < 1e-4, "{long}");
+        let short = greatest(&contact([1.0, 1.0, 10.0 / 3.0]), 15_586.0, 3e-5);
+        assert!((short / 440.55 - 1.0).abs() < 1e-3, "{short}");
+    }
+
     /// By a sum over 240 magnifications and graded panels from gap 0 on (NumPy); without such panels it was 6 % less.
     #[test]
     fn an_exponential_law_far_shorter_than_the_roughness_is_not_missed() {

@@ -127,7 +127,7 @@ fn persson_table(values: &Values) -> Result<Table, Failure> {
         match contact.pull_off(adhesion) {
             Ok(found) => table.note("pull_off_pressure", -found.tension, "Pa"),
             Err(TheoryError::OutOfRange { .. }) => table.notes.push(
-                "pull_off_pressure: none, or outside 1e-5 to 1 of contact modulus times rms slope"
+                "pull_off_pressure: none, repulsion exceeds attraction from 1e-5 of contact modulus times rms slope on"
                     .to_owned(),
             ),
             Err(error) => return Err(error.into()),
