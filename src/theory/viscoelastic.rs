@@ -6,6 +6,9 @@ use super::error::{TheoryError, not_negative, positive};
 use super::quadrature::integrate;
 use crate::effect::branch_coefficients;
 
+/// Relaxation times after which nothing is left of a stress.
+const FORGOTTEN: f64 = 50.0;
+
 /// A standard linear solid.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Solid {
@@ -145,13 +148,15 @@ impl Solid {
             -self.creep_time() * ((1.0 - share) / early).ln()
         };
         let rate = self.branch_modulus / self.relaxation_time;
-        // s = reached + x^2 removes the square root at the moment of first contact.
+        // What was before is forgotten; over a longer time the integral would miss what is not.
+        let span = (time - reached).clamp(0.0, FORGOTTEN * self.relaxation_time);
+        // s = time - span + x^2 removes the square root at the moment of first contact.
         let lost = |x: f64| {
-            let s = reached + x * x;
-            let a = (0.75 * radius * force * self.creep(s)).cbrt();
-            2.0 * x * rate * (-(time - s) / self.relaxation_time).exp() * shape(a)
+            let ago = span - x * x;
+            let a = (0.75 * radius * force * self.creep(time - ago)).cbrt();
+            2.0 * x * rate * (-ago / self.relaxation_time).exp() * shape(a)
         };
-        let end = (time - reached).max(0.0).sqrt();
+        let end = span.sqrt();
         let scale = self.instantaneous_modulus() * shape(now);
         let relaxed = integrate(lost, 0.0, end, 1e-11, 1e-13 * scale)?;
         Ok(2.0 / (std::f64::consts::PI * radius) * (scale - relaxed))
@@ -170,5 +175,18 @@ mod tests {
         let rate = |s: f64| -solid.branch_modulus / 0.1 * (-s / 0.1).exp();
         let rest = integrate(|s| solid.creep(t - s) * rate(s), 0.0, t, 1e-12, 0.0).unwrap();
         assert!((solid.creep(t) * solid.relaxation(0.0) + rest - 1.0).abs() < 1e-12);
+    }
+
+    /// After ten thousand creep times the pressure is that of Hertz with the relaxed modulus.
+    #[test]
+    fn the_pressure_of_a_sphere_relaxes_for_good() {
+        let (radius, force, relaxed) = (2.0, 0.3, 1.0);
+        let solid = Solid::new(relaxed, 9.0, 0.1).unwrap();
+        let a = (0.75 * radius * force / relaxed).cbrt();
+        for r in [0.0, 0.5 * a, 0.9 * a] {
+            let hertz = 2.0 * relaxed / (std::f64::consts::PI * radius) * (a * a - r * r).sqrt();
+            let found = solid.sphere_pressure(radius, force, 1e4, r).unwrap();
+            assert!((found / hertz - 1.0).abs() < 1e-9, "{found} {hertz}");
+        }
     }
 }
