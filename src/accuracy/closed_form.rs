@@ -19,9 +19,14 @@ const SAMPLES: usize = 64;
 /// without adhesion (Westergaard).
 pub fn closed_form(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
     let solid = &scene.solid;
-    let plain =
-        solid.layer.is_none() && solid.relaxation.is_empty() && scene.loading.spring.is_none();
-    let mapped = scene.adhesion.as_ref().is_some_and(|law| law.map.is_some());
+    let plain = solid.layer.is_none()
+        && solid.hardness.is_none()
+        && solid.relaxation.is_empty()
+        && scene.loading.spring.is_none();
+    let varies = scene
+        .adhesion
+        .as_ref()
+        .is_some_and(|law| law.map.is_some() || law.rate.is_some());
     let mut shaped = scene
         .surfaces
         .iter()
@@ -29,7 +34,7 @@ pub fn closed_form(scene: &Scene, cells: [usize; 2]) -> Option<Reference> {
     let (part, None) = (shaped.next()?, shaped.next()) else {
         return None;
     };
-    if !plain || mapped {
+    if !plain || varies {
         return None;
     }
     let size = scene.grid.size?;

@@ -280,9 +280,12 @@ pub fn others(
         ..own
     }));
     let mut models = vec![Model::NoAdhesion];
-    // A viscoelastic solid excludes the DMT treatment, and an adhesion map the settings that cannot
-    // be scaled.
-    if scene.solid.relaxation.is_empty() {
+    // What a scene cannot combine with the DMT treatment.
+    let excludes_dmt = !scene.solid.relaxation.is_empty()
+        || scene.solid.hardness.is_some()
+        || scene.loading.spring.is_some()
+        || adhesion.rate.is_some();
+    if !excludes_dmt {
         models.push(Model::Dmt);
     }
     if is_longer(scene, adhesion, points) {
@@ -290,4 +293,64 @@ pub fn others(
     }
     found.extend(models.into_iter().map(|model| Setting { model, ..own }));
     found
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::closed_form::closed_form;
+    use super::*;
+
+    /// A sphere in the range of Maugis' theory, with lines more in each of its tables.
+    fn sphere(solid: &str, adhesion: &str, loading: &str) -> Scene {
+        let text = format!(
+            r#"
+            [grid]
+            points = 16
+            size = 1.0
+            boundary = "free"
+            [solid]
+            contact_modulus = 1.0
+            {solid}
+            [[surface]]
+            kind = "sphere"
+            radius = 1.0
+            centre = [0.5, 0.5]
+            [adhesion]
+            law = "maugis-dugdale"
+            work_of_adhesion = 0.01
+            range = 0.1
+            {adhesion}
+            [loading]
+            control = "approach"
+            start = 0.0
+            {loading}
+            [[loading.ramp]]
+            to = 0.1
+            steps = 2
+            duration = 1
+            "#
+        );
+        let parsed = Scene::parse(&text, "test.toml", std::path::Path::new("."), &[]);
+        parsed.unwrap_or_else(|errors| panic!("{errors}"))
+    }
+
+    /// Maugis' sphere neither yields, nor hangs on a spring, nor depends on a speed; a scene with any of these takes no
+    /// treatment of DMT.
+    #[test]
+    fn effects_have_neither_closed_form_nor_dmt() {
+        let sums = |scene: &Scene| {
+            let others = others(scene, [16, 16], &[]);
+            others.iter().any(|setting| setting.model == Model::Dmt)
+        };
+        let plain = sphere("", "", "");
+        assert!(closed_form(&plain, [16, 16]).is_some() && sums(&plain));
+        let rate = "rate = { reference_speed = 1.0, exponent = 0.5 }";
+        for scene in [
+            sphere("hardness = 10.0", "", ""),
+            sphere("", rate, ""),
+            sphere("", "", "spring = 0.5"),
+        ] {
+            assert!(closed_form(&scene, [16, 16]).is_none() && !sums(&scene));
+        }
+    }
 }
