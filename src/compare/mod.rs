@@ -138,6 +138,7 @@ pub fn compare(
         match model(&comparison, &mut table) {
             Ok(()) => {}
             Err(Stopped::Out(reason)) => notes.push(format!("{name} is left out: {reason}")),
+            Err(Stopped::End(reason)) => notes.push(format!("{name} ends here: {reason}")),
             Err(Stopped::Theory(error)) => notes.push(format!(
                 "{name} ends here, after {:.1} s: {error}",
                 clock.seconds()
@@ -159,6 +160,8 @@ type Model = fn(&Comparison, &mut Table) -> Result<(), Stopped>;
 enum Stopped {
     #[error("{0}")]
     Out(String),
+    #[error("{0}")]
+    End(String),
     #[error(transparent)]
     Theory(#[from] TheoryError),
     #[error(transparent)]

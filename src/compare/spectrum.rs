@@ -12,6 +12,7 @@ use crate::theory::persson::Persson;
 use crate::theory::persson_gap::{Adhesion, PullOff, RoughContact};
 use crate::theory::roots::root;
 use crate::theory::{Law as Reduced, Spectrum, TheoryError};
+use crate::units::format_si;
 
 /// Energy factor of Persson's theory.
 const GAMMA: f64 = 0.5;
@@ -28,6 +29,8 @@ struct Found {
     /// Wave number of the roll-off that the scene names, 1/m.
     rolloff: f64,
     limit: Option<&'static str>,
+    /// What is wrong with its slope.
+    slope: Option<&'static str>,
 }
 
 /// The scene's own spectrum if the surface is one self-affine part; else a self-affine spectrum
@@ -43,10 +46,13 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
         let rolloff = rough.rolloff.min(longest);
         let wavenumbers = [longest, rolloff, rough.shortest].map(|length| 2.0 * PI / length);
         if let Ok(own) = Spectrum::new(wavenumbers, rough.hurst, moments.rms_height()) {
+            let widened = widened(&own, &moments);
+            let other = "spectrum of another rms slope than the map's";
             return Ok(Found {
-                spectrum: widened(&own, &moments).unwrap_or(own),
+                spectrum: widened.unwrap_or(own),
                 rolloff: own.rolloff_wavenumber(),
                 limit: None,
+                slope: widened.is_none().then_some(other),
             });
         }
     }
@@ -56,6 +62,7 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
             spectrum,
             rolloff: spectrum.rolloff_wavenumber(),
             limit: Some("self-affine spectrum matched to the map"),
+            slope: None,
         }),
         None => Err(Stopped::Out(
             "no self-affine spectrum has the surface's rms height, slope and curvature".to_owned(),
@@ -144,10 +151,11 @@ pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), 
             adhesive_pressure: Some(repulsive - net),
         })
     };
-    let limit = found.limit.or(comparison.beyond_dmt());
+    let approximate = found.limit.or(found.slope);
+    let limit = approximate.or(comparison.beyond_dmt());
     let Some(adhesion) = adhesion else {
         for load in comparison.carried(0.0) {
-            table.add(state(load, load)?, Some(0.0), found.limit)?;
+            table.add(state(load, load)?, Some(0.0), approximate)?;
         }
         return Ok(());
     };
@@ -206,8 +214,10 @@ pub(super) fn bam(comparison: &Comparison, table: &mut Table) -> Result<(), Stop
     for load in comparison.carried(tension) {
         // At full closure the model carries only a finite load.
         let Ok(gap) = model.mean_gap(load / peak) else {
-            return Err(Stopped::Out(format!(
-                "beyond {load:e} Pa its mean gap is 0"
+            let most = format_si(peak * model.pressure(0.0), "Pa");
+            let load = format_si(load, "Pa");
+            return Err(Stopped::End(format!(
+                "at a mean gap of 0 it carries {most}, and not {load}"
             )));
         };
         table.add(state(gap, load), Some(tension), limit)?;

@@ -279,7 +279,40 @@ fn the_dmt_rows_have_one_law() {
     assert!((points - points.round()).abs() < 1e-6 * points, "{points}");
 }
 
+/// BAM's gap closes at (3/8) q0 h E* less its tension times the normal distribution from 0 to its range: 271.6 - 96.4 MPa. Of
+/// the waves between 16.5 and 23 um a cell of 24 um has those of one length, steeper than any spectrum between the two.
+fn models_say_where_they_end_and_whose_slope_they_have() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("smooth.toml"), SMOOTH).expect("written");
+    let set = ["--set", "loading.path=[3e7, 3e8]"];
+    let output = tabor(
+        folder.path(),
+        &[&["compare", "smooth.toml"], &set[..]].concat(),
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let end = "BAM ends here: at a mean gap of 0 it carries 175.2 MPa, and not 300 MPa";
+    assert!(errors(&output).contains(end), "{}", errors(&output));
+    let results = folder.path().join("smooth_compare/compare.csv");
+    assert_eq!(of(&rows(&results), "BAM").len(), 2);
+    let limit = |model: &str| of(&rows(&results), model)[0][8].clone();
+    assert_eq!(limit("Persson"), "Tabor number above 0.237");
+
+    let waves = SMOOTH
+        .replace("longest = \"24 um\"", "longest = \"23 um\"")
+        .replace("rolloff = \"6 um\"", "rolloff = \"23 um\"")
+        .replace("shortest = \"3 um\"", "shortest = \"16.5 um\"");
+    fs::write(folder.path().join("smooth.toml"), waves).expect("written");
+    let output = tabor(folder.path(), &["compare", "smooth.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    assert_eq!(
+        limit("Persson"),
+        "spectrum of another rms slope than the map's"
+    );
+    assert_eq!(limit("BAM"), "");
+}
+
 tests![
+    models_say_where_they_end_and_whose_slope_they_have,
     the_dmt_rows_have_one_law,
     the_greatest_tension_is_found_behind_a_lesser_one_and_on_the_way_out,
     the_greatest_tension_before_a_sudden_fall_is_found,
