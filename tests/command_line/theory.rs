@@ -292,6 +292,17 @@ fn stiff_spheres_have_the_reference_values() {
             );
         }
     }
+    // The attraction keeps its digits where the load is 1e18 times as large: by quadrature (SciPy), and constants.
+    for (model, range, expected) in [
+        ("derjaguin", "", 0.5),
+        ("dmt-m", "", 1.0),
+        ("dmt-t", "--range 1", 0.500_000_002_379_01),
+        ("idmt-t", "--range 1", 0.500_000_002_933_18),
+        ("dmt-f", "--range 1", 7_433.756_074_757_6),
+    ] {
+        let table = Table::from_example(model, &format!("{call} {range} --to 1e12 --points 2"));
+        close(table.column("attraction")[1] / unit, expected, 1e-9);
+    }
     let rigid = "--radius 1 --work_of_adhesion 1 --range 1 --from -0.5 --points 2";
     let bradley = Table::from_example("bradley", rigid).column("force");
     close(bradley[0], -2.0 * PI * expected("bradley_lj#2"), 1e-12);

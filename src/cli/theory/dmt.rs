@@ -98,17 +98,13 @@ fn constant(values: &Values, force: &dyn Fn(&Sphere, f64) -> f64) -> Result<Tabl
     let sphere = sphere(values)?;
     let last = LAST_APPROACH * sphere.maugis_scales()?.approach;
     let places = values.places(0.0, last)?;
+    // The difference of the two forces, without the digits that it loses under a load.
+    let attraction = -force(&sphere, 0.0);
     let mut table = Table::over(&places, |approach| {
         let radius = hertz::contact_radius_at_approach(&sphere, approach)?;
-        let force = force(&sphere, radius);
-        numbers([
-            approach,
-            force,
-            radius,
-            hertz::force(&sphere, radius) - force,
-        ])
+        numbers([approach, force(&sphere, radius), radius, attraction])
     })?;
-    table.note("pull_off_force", force(&sphere, 0.0), "N");
+    table.note("pull_off_force", -attraction, "N");
     Ok(table)
 }
 
@@ -155,10 +151,15 @@ fn ranged(values: &Values, method: Method, law: Law) -> Result<Table, Failure> {
     let places = values.places(-5.0 * range, last)?;
     let mut table = Table::over(&places, |approach| {
         let reduced = approach / range;
-        let force = dmt::force(method, law, reduced, mu)?;
-        let hertz = dmt::hertz_force(reduced.max(0.0), mu)?;
+        // Not the difference of two forces, which loses its digits under a load.
+        let attraction = if reduced < 0.0 {
+            -dmt::force(method, law, reduced, mu)?
+        } else {
+            dmt::attraction(method, law, reduced.sqrt())?
+        };
+        let force = dmt::hertz_force(reduced.max(0.0), mu)? - attraction;
         let radius = (sphere.radius() * approach.max(0.0)).sqrt();
-        numbers([approach, unit * force, radius, unit * (hertz - force)])
+        numbers([approach, unit * force, radius, unit * attraction])
     })?;
     table.note("tabor_parameter", mu, "");
     let (_, pull_off) = dmt::pull_off(method, law, mu)?;
