@@ -583,6 +583,22 @@ fn summits_have_the_reference_values() {
         1e-10,
     );
 
+    // pi n R sigma F_1(0) is 0.0125 here, and with a hundred times the summits 1.25.
+    let warns = |density: &str| {
+        let call = format!(
+            "--radius \"10 um\" --density \"{density}\" --rms_height \"1 nm\" --contact_modulus \"100 GPa\" --points 2"
+        );
+        let table = Table::from_example("gw", &call);
+        let warning = |line: &String| line.contains("contact_area_fraction exceeds 1");
+        (
+            table.column("contact_area_fraction")[0],
+            table.comments.iter().any(warning),
+        )
+    };
+    let (few, many) = (warns("1 1/um^2"), warns("100 1/um^2"));
+    close(many.0, 100.0 * few.0, 1e-12);
+    assert!(many.0 > 1.0 && many.1 && !few.1);
+
     // One summit per area, with R, sigma and E* of 1: theta is 1/w.
     let at = |theta: f64| {
         let work = 1.0 / theta;

@@ -70,7 +70,7 @@ pub(super) const GW: Model = Model {
     example: EXAMPLE,
     table: |values| {
         let (summits, places) = summits(values)?;
-        Table::over(&places, |separation| {
+        let mut table = Table::over(&places, |separation| {
             let reduced = separation / summits.rms_height();
             numbers([
                 separation,
@@ -78,9 +78,22 @@ pub(super) const GW: Model = Model {
                 summits.contact_area_fraction(reduced),
                 summits.contact_density(reduced),
             ])
-        })
+        })?;
+        warn_of_overlap(&mut table, &summits, &places);
+        Ok(table)
     },
 };
+
+/// Says so where the contacts of independent summits cover more than there is.
+fn warn_of_overlap(table: &mut Table, summits: &Summits, places: &[f64]) {
+    let closest = places.iter().copied().fold(f64::INFINITY, f64::min);
+    if summits.contact_area_fraction(closest / summits.rms_height()) > 1.0 {
+        table.notes.push(
+            "warning: contact_area_fraction exceeds 1, since summits do not know of each other here; the model is meant for a few per cent"
+                .to_owned(),
+        );
+    }
+}
 
 pub(super) const GW_M: Model = Model {
     name: "gw-m",
@@ -109,6 +122,7 @@ pub(super) const GW_M: Model = Model {
                 summits.contact_density(reduced),
             ])
         })?;
+        warn_of_overlap(&mut table, &summits, &places);
         table.note("adhesion_parameter", summits.adhesion_parameter()?, "");
         table.note("pull_off_pressure", -gw_m::pull_off(&summits)?, "Pa");
         Ok(table)
