@@ -65,7 +65,7 @@ impl Meniscus {
 
     /// Attraction of a rigid sphere of `radius` (m) at a least `gap` (m), N, positive:
     /// `4 pi R gamma cos(theta) (1 - gap/range)`, 0 beyond the range.
-    /// A soft sphere has three quarters of it at most, depending on its Tabor parameter.
+    /// A soft sphere has between three quarters and all of it, by its Tabor parameter.
     pub fn rigid_force(&self, radius: f64, gap: f64) -> Result<f64, TheoryError> {
         let fade = (1.0 - not_negative("gap", gap)? / self.range()).max(0.0);
         Ok(2.0 * PI * positive("radius", radius)? * self.work_of_adhesion() * fade)
