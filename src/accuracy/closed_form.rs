@@ -197,7 +197,8 @@ impl Theory {
     }
 
     /// Follows a path to its next value: a touching sphere stays in contact as long as that state
-    /// exists.
+    /// exists. Under a force it touches wherever a contact carries the force, since the solver begins
+    /// where the surfaces touch.
     fn follow(
         &self,
         from: Branch,
@@ -209,7 +210,7 @@ impl Theory {
         let (theory, scales) = match self {
             Theory::Hertz(_) | Theory::Jkr(_) => {
                 // Without a range there is no attraction before contact.
-                let meets = from == Branch::Touching || value >= 0.0;
+                let meets = by_force || from == Branch::Touching || value >= 0.0;
                 return match touching.filter(|_| meets) {
                     Some(held) => Ok((Branch::Touching, Some(held))),
                     None => separated,
@@ -218,9 +219,7 @@ impl Theory {
             Theory::Maugis(theory, scales) => (theory, scales),
         };
         if by_force {
-            // A compressive load closes a separated contact; under tension it stays separated.
-            let meets = from == Branch::Touching || value > 0.0;
-            return match touching.filter(|_| meets) {
+            return match touching {
                 Some(held) => Ok((Branch::Touching, Some(held))),
                 None => separated,
             };
@@ -399,4 +398,54 @@ fn wave(
         }
     }
     Ok(Some(reference("Westergaard", steps, None, profile)))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Contact area over nominal area of a sphere of R, K and pi w of 1 on a cell of side 8 under these forces.
+    fn areas(range: &str, path: &str) -> Vec<f64> {
+        let text = format!(
+            r#"
+            [grid]
+            points = 16
+            size = 8.0
+            boundary = "free"
+            [solid]
+            contact_modulus = 0.75
+            [[surface]]
+            kind = "sphere"
+            radius = 1.0
+            centre = [4.0, 4.0]
+            [adhesion]
+            law = "maugis-dugdale"
+            work_of_adhesion = 0.3183098861837907
+            range = {range}
+            [loading]
+            control = "force"
+            path = {path}
+            "#
+        );
+        let parsed = Scene::parse(&text, "test.toml", std::path::Path::new("."), &[]);
+        let scene = parsed.unwrap_or_else(|errors| panic!("{errors}"));
+        let found = closed_form(&scene, [16, 16]).expect("a closed form");
+        let areas = found.steps.iter().map(|step| step.expect("known").area);
+        areas.collect()
+    }
+
+    /// The radius without load is 1.51738353 at lambda = 0.5, where pull-off is at -1.718, and that of JKR 6^(1/3).
+    #[test]
+    fn a_contact_that_carries_the_force_is_found_from_separation_too() {
+        let path = "[0.0, -1.0, -3.0, -1.0]";
+        for (range, radius) in [
+            ("1.2732395447351628", 1.517_383_53),
+            ("\"auto\"", 6_f64.cbrt()),
+        ] {
+            let areas = areas(range, path);
+            let expected = PI * radius * radius / 64.0;
+            assert!((areas[0] / expected - 1.0).abs() < 1e-7, "{areas:?}");
+            assert!(areas[1] > 0.0 && areas[2] == 0.0 && areas[3] == areas[1]);
+        }
+    }
 }
