@@ -287,7 +287,7 @@ fn models_say_where_they_end_and_whose_slope_they_have() {
     let set = ["--set", "loading.path=[3e7, 3e8]"];
     let output = tabor(
         folder.path(),
-        &[&["compare", "smooth.toml"], &set[..]].concat(),
+        &[&["compare", "smooth.toml"][..], &set[..]].concat(),
     );
     assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
     let end = "BAM ends here: at a mean gap of 0 it carries 175.2 MPa, and not 300 MPa";
