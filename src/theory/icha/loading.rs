@@ -193,18 +193,23 @@ impl Loading<'_> {
     fn press_at_once(&mut self, pressure: f64) -> Result<(), TheoryError> {
         let surface = self.surface;
         let load = pressure * surface.grid.area();
-        let start = match &self.state {
-            Some(state) => state.clone(),
-            None => first_touch(&self.set.asperities, load)?,
+        let solve = |start: Equilibrium| {
+            solve_with_merging(
+                self.set.clone(),
+                &surface.lattice,
+                Prescribed::Load(load),
+                start,
+                MergeRule::DisplacedVolume,
+                Tolerances::PASSING.merging_covered(),
+            )
         };
-        let (set, state) = solve_with_merging(
-            self.set.clone(),
-            &surface.lattice,
-            Prescribed::Load(load),
-            start,
-            MergeRule::DisplacedVolume,
-            Tolerances::PASSING.merging_covered(),
-        )?;
+        let asperities = &self.set.asperities;
+        let (set, state) = match &self.state {
+            Some(state) => solve(state.clone()),
+            // From the highest alone many others of its height would come in touch at once.
+            None => solve(first_touch(asperities, load))
+                .or_else(|_| solve(shared_touch(asperities, load)?)),
+        }?;
         self.set = set;
         self.state = Some(state);
         self.pressure = pressure;
@@ -212,8 +217,26 @@ impl Loading<'_> {
     }
 }
 
-/// The highest asperities under a load over the modulus, m^2, each as if it were alone: many of one height share it.
-fn first_touch(asperities: &[Asperity], load: f64) -> Result<Equilibrium, TheoryError> {
+/// The highest asperity alone under a load over the modulus, m^2.
+fn first_touch(asperities: &[Asperity], load: f64) -> Equilibrium {
+    let mut indentations = vec![0.0; asperities.len()];
+    let highest = (0..asperities.len())
+        .max_by(|&i, &j| asperities[i].height.total_cmp(&asperities[j].height));
+    let mut plane = 0.0;
+    if let Some(i) = highest {
+        let contact_radius = (0.75 * load * asperities[i].radius).cbrt();
+        indentations[i] = contact_radius * contact_radius / asperities[i].radius;
+        plane = asperities[i].height - indentations[i];
+    }
+    Equilibrium {
+        plane,
+        lowered: vec![0.0; asperities.len()],
+        indentations,
+    }
+}
+
+/// All asperities that share a load over the modulus, m^2, each as if it were alone.
+fn shared_touch(asperities: &[Asperity], load: f64) -> Result<Equilibrium, TheoryError> {
     let by_height = |one: &&Asperity, other: &&Asperity| one.height.total_cmp(&other.height);
     let highest = asperities
         .iter()
