@@ -10,6 +10,9 @@ use crate::theory::{Sphere, gw_m};
 /// Contact area up to which interacting asperities approximate the full field; beyond it most have
 /// merged.
 const ICHA_AREA: f64 = 0.3;
+/// Repulsive pressure over E* times the rms slope under which that much of a rough surface touches, by Persson's theory. The few
+/// summits of a smooth one merge there into too small an area.
+const ICHA_LOAD: f64 = 0.15;
 /// Contact area up to which non-interacting summits are a valid model.
 const GW_AREA: f64 = 0.05;
 
@@ -43,6 +46,9 @@ pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Sto
     let limit = |state: &State| {
         let crowded = state.contact_area_fraction > Some(ICHA_AREA);
         let crowded = crowded.then_some("contact area above 30 %");
+        let repulsive = state.mean_pressure + state.adhesive_pressure.unwrap_or(0.0);
+        let pressed = repulsive > ICHA_LOAD * unit;
+        let crowded = crowded.or(pressed.then_some("load above that of 30 % contact"));
         crowded.or(comparison.beyond_dmt())
     };
     let pull_off = scan.pull_off();

@@ -309,6 +309,21 @@ fn models_say_where_they_end_and_whose_slope_they_have() {
         "spectrum of another rms slope than the map's"
     );
     assert_eq!(limit("BAM"), "");
+
+    // Waves of 12 um and more: at 30 MPa ICHA finds 26 % in contact where the field has 61 % (DMT).
+    let smooth = SMOOTH
+        .replace("rolloff = \"6 um\"", "rolloff = \"24 um\"")
+        .replace("shortest = \"3 um\"", "shortest = \"12 um\"");
+    fs::write(folder.path().join("smooth.toml"), smooth).expect("written");
+    let output = tabor(
+        folder.path(),
+        &["compare", "smooth.toml", "--set", "loading.path=[3e7]"],
+    );
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let rows = rows(&results);
+    let icha = of(&rows, "ICHA")[1];
+    assert!(number(icha, "contact_area_fraction").is_some_and(|area| area < 0.3));
+    assert_eq!(icha[8], "load above that of 30 % contact");
 }
 
 tests![
