@@ -358,6 +358,13 @@ fn jkr_lets_go_where_it_should() {
     );
     assert_eq!(together.words("state"), ["separated", "contact"]);
     close(together.column("force")[1], -4.0 / 3.0 * unit, 1e-12);
+    // The seventh of these twelve rows is at 0, and not at -5e-23.
+    let rows = "--direction together --from \"-0.6 um\" --to \"0.5 um\" --points 12";
+    let rows = Table::from_example("jkr", &format!("{call} {rows}"));
+    assert_eq!(
+        (rows.column("approach")[6], rows.words("state")[6]),
+        (0.0, "contact")
+    );
 }
 
 fn maugis_dugdale_has_the_reference_pull_off() {

@@ -166,7 +166,13 @@ impl Values {
                 "--from and --to are the same, {from:?} {unit}; a table needs a way to go"
             )));
         }
-        Ok(self.spread(|share| from * (1.0 - share) + to * share, from, to))
+        // A row at 0 is there, not beside it by rounding: JKR's surfaces touch from 0 on.
+        let rounding = 1e-15 * from.abs().max(to.abs());
+        let place = |share: f64| {
+            let at = from * (1.0 - share) + to * share;
+            if at.abs() <= rounding { 0.0 } else { at }
+        };
+        Ok(self.spread(place, from, to))
     }
 
     /// Places of the rows, evenly in the logarithm; both ends are positive.
