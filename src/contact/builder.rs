@@ -312,7 +312,7 @@ impl Contact {
     /// Values that cannot stand, heights that cannot be used, a contact that the memory does not hold, and a
     /// device that cannot be used or fails. A load that does not converge is a [`Solution`] that says so.
     pub fn solve(&self, load: impl Into<Load>) -> Result<Solution, ContactError> {
-        let mut path = Path::new(self.clone(), std::iter::once(load.into()));
+        let mut path = self.path([load.into()]);
         path.next().expect("there is one load")
     }
 
@@ -338,12 +338,17 @@ impl Contact {
         I: IntoIterator,
         I::Item: Into<Load>,
     {
+        Path::new(self.for_loads(), loads.into_iter())
+    }
+
+    /// This contact without what a scene that it was made from says of the steps of its own path.
+    fn for_loads(&self) -> Contact {
         let mut contact = self.clone();
-        // A path writes nothing, and its loads are not known yet among which a step might be named.
+        // Nothing is written, and the loads are not known yet among which a step might be named.
         contact.scene.output.steps = StepChoice::Last;
         // The loads are those that the caller gives, and no others behind each.
         contact.scene.loading.until_apart = false;
-        Path::new(contact, loads.into_iter())
+        contact
     }
 
     /// The loads of the scene that this contact was made from; empty for a contact built with methods.
@@ -374,7 +379,7 @@ impl Contact {
         ramps: &[Ramp],
         time_tolerance: Option<f64>,
     ) -> Result<Vec<Load>, ContactError> {
-        let scene = self.assembled()?;
+        let scene = self.for_loads().assembled()?;
         let loading = scene.loading_of_ramps(start.kind(), start.value(), ramps, time_tolerance)?;
         Ok(loads_of(&loading))
     }

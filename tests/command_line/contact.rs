@@ -459,6 +459,24 @@ fn a_path_has_the_loads_it_is_given_and_their_pull_off() {
     assert!(holds(0.97 * held) && !holds(1.03 * parted));
 }
 
+/// A scene that names a step of its own path, or goes on behind it, says nothing of a single load or of other ramps.
+fn one_load_of_a_scene_takes_nothing_of_its_path() {
+    let law = MaugisDugdale::new(0.05, 20e-9);
+    let mut scene = contact()
+        .law(law)
+        .scene([1e6, 2e6, 0.0].map(Control::MeanPressure))
+        .expect("a scene");
+    scene.output.steps = StepChoice::List(vec![3]);
+    let own = contact().law(law).solve(Control::MeanPressure(1e6));
+    let read = Contact::from_scene(scene.clone()).solve(Control::MeanPressure(1e6));
+    let [own, read] = [own, read].map(|solved| solved.expect("a solution"));
+    assert_eq!(read.pressure, own.pressure);
+    scene.loading.until_apart = true;
+    let hold = [Ramp::hold(1.0, 2)];
+    let loads = Contact::from_scene(scene).ramps(Control::MeanPressure(1e6), &hold, None);
+    assert_eq!(loads.expect("loads").len(), 3);
+}
+
 fn a_watcher_ends_a_solve() {
     let heard = Arc::new(AtomicUsize::new(0));
     let count = Arc::clone(&heard);
@@ -696,6 +714,7 @@ tests![
     a_path_has_the_loads_it_is_given_and_their_pull_off,
     a_watcher_ends_a_solve,
     parted_surfaces_leave_whole_arrays,
+    one_load_of_a_scene_takes_nothing_of_its_path,
     threads_change_no_bit,
     runs_of_the_library_are_resumed_refused_and_quiet_about_pictures,
     mistakes_name_the_method_and_no_line_of_a_scene,
