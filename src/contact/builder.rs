@@ -456,7 +456,10 @@ pub(super) fn append(scene: &mut Scene, load: Load) -> Result<(), ContactError> 
         )
         .into());
     }
-    if !first && load.duration.is_some() != loading.durations.is_some() && loading.path.len() > 1 {
+    let is_timed = load.duration.is_some();
+    // The first load may be without a time where the second has one.
+    let begins = is_timed && loading.path.len() == 1;
+    if !first && is_timed != loading.durations.is_some() && !begins {
         return Err(ContactMistake::conflict(
             "loading.duration",
             "some loads have a time and others none; give each but the first its time, or none",
