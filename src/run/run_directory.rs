@@ -247,7 +247,7 @@ fn resume_from(
     let Some((file, curve)) = sound(folder, scene, setup)? else {
         return Ok(None);
     };
-    let (state, file) = if setup.problem.share.is_whole() {
+    let (mut state, file) = if setup.problem.share.is_whole() {
         (file.read_all()?, None)
     } else {
         (file.state.clone(), Some(file))
@@ -271,7 +271,8 @@ fn resume_from(
         }
         solver
     };
-    if said(&state.solver) != said(&now) && state.finished > 0 && !failed {
+    let is_changed = said(&state.solver) != said(&now) && state.finished > 0;
+    if is_changed && !failed {
         return Err(OutputError::refused(
             &folder.state_path(STATE),
             format!(
@@ -279,6 +280,11 @@ fn resume_from(
                 state.solver
             ),
         ));
+    }
+    if is_changed && file.is_none() {
+        // Before the row goes that lets it change: this run may end before it finishes a step, and be resumed too.
+        state.solver = now;
+        state.write(&folder.state_path(STATE))?;
     }
     let mut remarks = Vec::new();
     let mut warnings = state.warnings;

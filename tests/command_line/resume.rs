@@ -194,6 +194,16 @@ fn an_unconverged_step_is_solved_again_and_the_solver_may_change_then_only() {
     let output = tabor(folder, &[&call[..], &["--resume"]].concat());
     assert_eq!(status(&output), 3, "{}", errors(&output));
     assert_eq!(rows(&place).len(), failed);
+    // One that is killed before it finishes a step goes on too, though the row that failed is dropped.
+    let killed = command(
+        folder,
+        &["run", "scene.toml", "--out", "failed", "--resume"],
+    )
+    .env("TABOR_TEST_CRASH", "2")
+    .output()
+    .expect("the binary runs");
+    assert_eq!(killed.status.code(), None, "{}", errors(&killed));
+    assert_eq!(rows(&place).len(), failed - 1);
     resume(folder, "failed", &[]);
 
     // Steps that converged were solved with their [solver].
