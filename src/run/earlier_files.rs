@@ -47,12 +47,16 @@ pub(super) fn lost(
 /// The files that finished steps have written.
 fn expected(folder: &RunFolder, setup: &Setup, finished: &[StepRow], draws: bool) -> Vec<PathBuf> {
     let output = &setup.scene.output;
-    let is_over = Planned::after(setup, finished).is_none();
+    let last = finished.last();
+    let is_over =
+        Planned::after(setup, finished).is_none() || last.is_some_and(|row| !row.converged);
+    // A last step without fields leaves those of the step before it.
+    let drawn = finished.len() - usize::from(last.is_some_and(|row| row.approach.is_none()));
     let asked = |step: &usize| match &output.steps {
         StepChoice::All => true,
         StepChoice::List(list) => list.contains(step),
         // Those of an earlier end are cleared away when the run is resumed.
-        StepChoice::Last => is_over && *step == finished.len(),
+        StepChoice::Last => is_over && *step == drawn,
     };
     // Without a position there is no state, and nothing was written.
     let has_fields = |step: &usize| finished[*step - 1].approach.is_some();

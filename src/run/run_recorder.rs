@@ -5,6 +5,7 @@ use std::borrow::Cow;
 use rayon::prelude::*;
 
 use super::RunObserver;
+use super::earlier_files::lost;
 use super::on_ranks::Ask;
 use super::run_directory::{RunDirectory, STATE, solver};
 use super::warnings::warnings_at_end;
@@ -166,6 +167,17 @@ impl<'a> RunRecorder<'a> {
         self.warn(format!("step {} {why}{NO_FIELDS}", row.step));
     }
 
+    /// Warns of the fields before a last step without any, if a run that was killed has solved and not written them.
+    fn warn_lost(&mut self) {
+        if self.setup.scene.output.steps == StepChoice::Last
+            && self.rows.last().is_some_and(|row| row.approach.is_none())
+            && let Some(text) = lost(&self.folder, self.setup, &self.rows, self.draws)
+            && !self.warnings.contains(&text)
+        {
+            self.warn(text);
+        }
+    }
+
     /// Warnings of the scene and of the run.
     fn all_warnings(&self) -> Vec<String> {
         [self.setup.warnings.as_slice(), &self.warnings].concat()
@@ -316,8 +328,9 @@ impl<'a> RunRecorder<'a> {
         let clock = Clock::start();
         self.folder.expect_present()?;
         self.restore_curve(true)?;
-        if let Some((step, evaluation)) = self.last.take() {
-            self.write_fields(step, &evaluation)?;
+        match self.last.take() {
+            Some((step, evaluation)) => self.write_fields(step, &evaluation)?,
+            None => self.warn_lost(),
         }
         self.output_seconds += clock.seconds();
         for text in warnings_at_end(self.setup, self.device, end) {

@@ -396,6 +396,18 @@ fn fields_before_a_step_without_any_stay() {
     };
     let whole = run(&[]);
     assert!(run(&["--resume"]) == whole);
+    // Of a run that was killed in its third step there are none, which one that is resumed there says.
+    for part in ["fields", "images"] {
+        fs::remove_dir_all(folder.join("out").join(part)).expect("it is removed");
+    }
+    for _ in 0..2 {
+        let call = ["run", "scene.toml", "--out", "out", "--resume"];
+        let said = errors(&tabor(folder, &call));
+        assert_eq!(said.matches("missing or cut short").count(), 1, "{said}");
+        assert!(said.contains("step_0002_gap.png"), "{said}");
+        let warnings = summary(&folder.join("out"))["warnings"].to_string();
+        assert_eq!(warnings.matches("missing or cut short").count(), 1);
+    }
 }
 
 #[cfg(unix)]
