@@ -148,6 +148,7 @@ fn solve(
         });
         attempt.solver.set_law_factor(raised);
         let outcome = attempt.solve(load, &start)?;
+        let outcome = attempt.restart_stalled(load, outcome)?;
         iterations += outcome.iterations;
         let mut solved = attempt.finish(load, &outcome)?;
         solved.iterations = iterations;

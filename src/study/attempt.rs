@@ -104,7 +104,7 @@ impl Attempt<'_> {
     /// All points of a direction move together, and the wall stops those that it would carry through. Where these are what the
     /// direction descends by, as in a contact of four pixels at the tip of a cone, no length of it leads on. A step of each
     /// point by itself always does.
-    fn restart_stalled(
+    pub fn restart_stalled(
         &mut self,
         load: &Load,
         mut outcome: Outcome,

@@ -5,7 +5,7 @@
 
 use std::f64::consts::PI;
 
-use tabor::study::StepRow;
+use tabor::study::{State, StepRow};
 use tabor::theory::maugis_dugdale::MaugisDugdale;
 use tabor::theory::rate::reduced_pull_off;
 
@@ -162,7 +162,22 @@ fn a_fast_edge_of_few_pixels_converges() {
     }
 }
 
+/// Edges so slow that they have the plain law: a soft solid comes through its jumps as without a rate, where a solve stalls and goes on from where
+/// each point has moved by itself.
+fn a_stalled_solve_goes_on_as_without_a_rate() {
+    let states = ["", "rate = { reference_speed = \"1000 m/s\", exponent = 1.0 }"].map(|rate| {
+        let solved = solve_table(&format!(
+            "[grid]\npoints = 48\nsize = \"20 um\"\n[solid]\ncontact_modulus = \"1 MPa\"\n[[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_height = \"50 nm\"\nlongest = \"20 um\"\nrolloff = \"10 um\"\nshortest = \"2.5 um\"\nseed = 2\n[adhesion]\nlaw = \"maugis-dugdale\"\nwork_of_adhesion = \"50 mJ/m^2\"\nrange = \"300 nm\"\n{rate}\n[loading]\ncontrol = \"mean-gap\"\nstart = \"1 nm\"\nuntil = \"apart\"\n[[loading.ramp]]\nto = \"1.5 nm\"\nsteps = 1\nduration = \"1 s\"\n"
+        ));
+        let last = solved.steps.last().expect("rows");
+        (solved.steps.len(), last.row.state)
+    });
+    assert_eq!(states[0].1, State::Separated);
+    assert_eq!(states[0], states[1]);
+}
+
 tests![
+    a_stalled_solve_goes_on_as_without_a_rate,
     full_contact_that_lets_go_at_once_has_no_edge,
     a_fast_edge_of_few_pixels_converges,
     pull_off_at_a_speed,
