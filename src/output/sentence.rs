@@ -1,7 +1,7 @@
 //! The result of a run in a sentence: the last words of `tabor run` and the first line of a report.
 
 use super::summary::Summary;
-use crate::study::{State, StepRow};
+use crate::study::{State, StepRow, largest_contact};
 use crate::units::format_si;
 
 /// Loads below this share of the greatest count as zero: a treatment that searches for its load meets it to about this.
@@ -11,9 +11,7 @@ const NAMED: usize = 6;
 
 /// The result of the rows of a run: contact area, pull-off or what still sticks, jumps, lost energy.
 pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
-    let area = |row: &&StepRow| row.contact_area_fraction;
-    let solved = rows.iter().filter(|row| row.has_solution());
-    let Some(largest) = solved.max_by(|a, b| area(a).total_cmp(&area(b))) else {
+    let Some(largest) = largest_contact(rows) else {
         let words = match rows {
             [] => "No step is finished.",
             _ => "No step has a solution.",
@@ -29,7 +27,7 @@ pub(crate) fn sentence(summary: &Summary, rows: &[StepRow]) -> String {
     } else {
         "The surfaces do not touch".to_owned()
     }];
-    let solved = rows.iter().filter(|row| row.has_solution());
+    let solved = rows.iter().filter(|row| row.converged);
     let strongest = solved.min_by(|a, b| a.force.total_cmp(&b.force));
     if let Some(row) = strongest
         && largest.contact_area_fraction == 0.0

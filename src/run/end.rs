@@ -10,7 +10,9 @@ use crate::backend::ranks::RankError;
 use crate::device::{DeviceError, SelectedDevice};
 use crate::effect::Effect;
 use crate::output::{Effects, OutputError, Seconds, Summary, peak_memory_bytes};
-use crate::study::{Setup, StepRow, Tension, Unreachable, WalkEnd, count_of_steps};
+use crate::study::{
+    Setup, StepRow, Tension, Unreachable, WalkEnd, count_of_steps, largest_contact,
+};
 use crate::surface::SurfaceError;
 
 /// Why a run could not begin or continue.
@@ -171,11 +173,8 @@ pub(super) fn summary(
         seconds,
         transforms: end.transforms + setup.transforms,
         peak_memory_bytes: peak_memory_bytes(),
-        largest_contact_area_fraction: end
-            .rows
-            .iter()
-            .map(|row| row.contact_area_fraction)
-            .reduce(f64::max),
+        largest_contact_area_fraction: largest_contact(&end.rows)
+            .map(|row| row.contact_area_fraction),
         pull_off_force: tension.pull_off(),
         pull_off_step: tension.step(),
         pull_off_lower: lower,

@@ -47,6 +47,7 @@ pub use plan::Plan;
 pub(crate) use plausible::of_surface as implausible_surface;
 pub use pull_off::{PullOff, Tension};
 pub use regime::{AUTO_TAPER, Regime, resolve_law};
+pub(crate) use row::largest_contact;
 pub use row::{Column, State, StepRow};
 pub use setup::Setup;
 pub use step_warnings::step_warnings;

@@ -69,9 +69,18 @@ pub struct StepRow {
     pub columns: Vec<(Column, Option<f64>)>,
 }
 
+/// The row of the greatest contact area, of steps that converged; where none did, of those that were begun.
+pub(crate) fn largest_contact(rows: &[StepRow]) -> Option<&StepRow> {
+    let area = |row: &&StepRow| row.contact_area_fraction;
+    let largest = |of: fn(&&StepRow) -> bool| {
+        let rows = rows.iter().filter(of);
+        rows.max_by(|a, b| area(a).total_cmp(&area(b)))
+    };
+    largest(|row| row.converged).or_else(|| largest(|row| row.has_solution()))
+}
+
 impl StepRow {
     /// Whether the step has a solution; false for a prescribed value that no contact can have.
-    #[cfg(feature = "images")]
     pub(crate) fn has_solution(&self) -> bool {
         self.converged || self.approach.is_some()
     }
@@ -154,5 +163,47 @@ impl Column {
             Some((_, old)) => *old = value,
             None => row.columns.push((self, value)),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(step: usize, contact: f64, converged: bool) -> StepRow {
+        StepRow {
+            step,
+            time: None,
+            approach: Some(0.0),
+            mean_gap: Some(0.0),
+            force: 0.0,
+            mean_pressure: 0.0,
+            contact_area_fraction: contact,
+            attractive_area_fraction: 0.0,
+            elastic_energy: 0.0,
+            adhesive_energy: 0.0,
+            iterations: 1,
+            residual: 0.0,
+            converged,
+            seconds: 0.0,
+            contact_area_fraction_corrected: None,
+            state: State::Contact,
+            columns: Vec::new(),
+        }
+    }
+
+    /// The contact of a step that did not converge is no result of a run, unless there is no other.
+    #[test]
+    fn the_largest_contact_is_one_that_converged() {
+        let largest = |rows: &[StepRow]| largest_contact(rows).map(|row| row.step);
+        let rows = [row(1, 0.1, true), row(2, 0.2, true), row(3, 0.9, false)];
+        assert_eq!(largest(&rows), Some(2));
+        assert_eq!(largest(&rows[2..]), Some(3));
+        let unreachable = StepRow {
+            approach: None,
+            ..row(1, 0.0, false)
+        };
+        assert_eq!(largest(&[unreachable]), None);
+        assert_eq!(largest(&[]), None);
     }
 }

@@ -18,7 +18,7 @@ use super::sentence::{AtZeroLoad, loss, per_cent, sentence, step_words};
 use super::summary::Summary;
 use super::visible::visible;
 use crate::effect::Effect;
-use crate::study::{Checkpoint, Planned, Setup, StepRow, count_of_steps};
+use crate::study::{Checkpoint, Planned, Setup, StepRow, count_of_steps, largest_contact};
 use crate::units::format_si;
 
 /// Most bytes of pictures on a page, so that a phone can open it; one picture is always shown.
@@ -200,9 +200,8 @@ impl Report<'_> {
     /// Results that effects add: those that grow along the path at its end, the others at the largest contact, or where
     /// they are greatest on a path without contact.
     fn results_of_effects(&self) -> Vec<(String, String, String)> {
-        let solved = || self.rows.iter().filter(|row| row.has_solution());
-        let area = |row: &&StepRow| row.contact_area_fraction;
-        let largest = solved().max_by(|a, b| area(a).total_cmp(&area(b)));
+        let solved = || self.rows.iter().filter(|row| row.converged);
+        let largest = largest_contact(self.rows);
         let touches = largest.is_some_and(|row| row.contact_area_fraction > 0.0);
         let at_zero = AtZeroLoad::from_rows(self.rows);
         let mut found = Vec::new();
@@ -249,9 +248,7 @@ impl Report<'_> {
     /// The main results: name, value and note.
     fn main_results(&self) -> Vec<(&'static str, String, String)> {
         let mut found = Vec::new();
-        let area = |row: &&StepRow| row.contact_area_fraction;
-        let solved = self.rows.iter().filter(|row| row.has_solution());
-        if let Some(row) = solved.max_by(|a, b| area(a).total_cmp(&area(b))) {
+        if let Some(row) = largest_contact(self.rows) {
             let note = match row.contact_area_fraction > 0.0 {
                 true => format!("of the nominal area, step {}", row.step),
                 false => "the surfaces do not touch".to_owned(),
@@ -261,7 +258,7 @@ impl Report<'_> {
         let tension = self
             .rows
             .iter()
-            .filter(|row| row.force < 0.0)
+            .filter(|row| row.converged && row.force < 0.0)
             .min_by(|a, b| a.force.total_cmp(&b.force));
         let bounds = self.summary.and_then(|summary| {
             let bounds = summary.pull_off_lower.zip(summary.pull_off_upper)?;
