@@ -98,10 +98,11 @@ impl Walk {
         let jumped = [&self.end.jump_in_steps[..], &self.end.jump_off_steps].concat();
         let found = self
             .jumps
-            .hysteresis(&setup.scene.loading.path, &self.end.rows, &jumped);
+            .hysteresis(&setup.scene.loading.path, &self.end.rows, &jumped)
+            // Attraction that is summed afterwards makes one curve of both ways, whose force is not the slope of its energies.
+            .filter(|_| !setup.sums_attraction());
         // What a solid or an edge loses by its rate cannot be told from an error.
-        let has_rates = setup.effects.depend_on_duration()
-            || setup.effects.hide_jumps() && !setup.sums_attraction();
+        let has_rates = setup.effects.depend_on_duration() || setup.effects.hide_jumps();
         let uncertainty = found.filter(|_| !has_rates);
         WalkEnd {
             hysteresis_energy: found.map(|found| found.energy),

@@ -1057,7 +1057,22 @@ fn a_step_beyond_closure_is_called_what_it_is() {
     }
 }
 
+/// Loading and unloading are one curve, whose force is not the slope of the energies: nothing that a loop encloses is a loss.
+fn a_loop_of_the_dmt_treatment_has_no_hysteresis() {
+    let (folder, _) = scene(LOOP);
+    let (said, page) = last_words(
+        folder.path(),
+        "out",
+        &["--set", "adhesion.treatment=\"dmt\""],
+    );
+    let summary = summary(&folder.path().join("out"));
+    assert!(summary["hysteresis_energy"].is_null(), "{summary}");
+    assert!(summary["hysteresis_uncertainty"].is_null(), "{summary}");
+    assert!(!said.contains("loses") && !page.contains("loses"), "{said}");
+}
+
 tests![
+    a_loop_of_the_dmt_treatment_has_no_hysteresis,
     a_path_that_turns_back_at_its_greatest_tension_says_so,
     rounding_hides_no_pull_off_and_widens_no_bracket,
     an_attraction_that_holds_is_warned_of,
