@@ -8,7 +8,7 @@ use super::RunObserver;
 use super::earlier_files::lost;
 use super::on_ranks::Ask;
 use super::run_directory::{RunDirectory, STATE, solver};
-use super::warnings::warnings_at_end;
+use super::warnings::{unreached_steps, warnings_at_end};
 use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
@@ -333,7 +333,11 @@ impl<'a> RunRecorder<'a> {
             None => self.warn_lost(),
         }
         self.output_seconds += clock.seconds();
-        for text in warnings_at_end(self.setup, self.device, end) {
+        let others = unreached_steps(self.setup, &end.rows);
+        for text in warnings_at_end(self.setup, self.device, end)
+            .into_iter()
+            .chain(others)
+        {
             self.warn(text);
         }
         self.tallies = Checkpoint {

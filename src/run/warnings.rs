@@ -1,7 +1,7 @@
 //! What a run that ended warns of.
 
 use crate::device::SelectedDevice;
-use crate::scene::{LoadingScene, Precision};
+use crate::scene::{LoadingScene, Precision, StepChoice};
 use crate::study::{Planned, PullOff, Setup, State, StepRow, Tension, WalkEnd};
 use crate::units::format_si;
 
@@ -24,6 +24,25 @@ pub(super) fn warnings_at_end(
         .chain(pull_off)
         .chain(hysteresis(end, setup.scene.solver.tolerance))
         .collect()
+}
+
+/// A warning of steps whose fields and pictures the scene asks for, and to which a path that pulls until the surfaces are apart did not
+/// come.
+pub(super) fn unreached_steps(setup: &Setup, rows: &[StepRow]) -> Option<String> {
+    let output = &setup.scene.output;
+    let StepChoice::List(list) = &output.steps else {
+        return None;
+    };
+    let asked = !(output.images.is_empty() && output.fields.is_empty());
+    let is_whole =
+        Planned::after(setup, rows).is_none() && rows.last().is_some_and(|row| row.converged);
+    let beyond = list.iter().filter(|step| **step > rows.len()).min()?;
+    (asked && is_whole).then(|| {
+        format!(
+            "the path ended with step {}, and output.steps names others beyond it, step {beyond} and on: they have no fields and pictures",
+            rows.len()
+        )
+    })
 }
 
 /// A warning if rounding ended steps above the tolerance.

@@ -119,7 +119,11 @@ fn first_length(setup: &Setup, loading: &LoadingScene) -> f64 {
         Control::Pressure => load.max(FIRST * pressure),
         Control::Force => load.max(FIRST * pressure * setup.surface.grid.area()),
         _ if law.is_adhesive() => FIRST * law.range(),
-        _ => FIRST * setup.statistics.moments.rms_height(),
+        // Flats have no height.
+        _ => match FIRST * setup.statistics.moments.rms_height() {
+            0.0 => load,
+            height => height,
+        },
     }
 }
 

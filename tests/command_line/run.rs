@@ -1057,6 +1057,30 @@ fn a_step_beyond_closure_is_called_what_it_is() {
     }
 }
 
+/// A flat has no height by which the first step behind the path could go. Steps that `[output]` names and that the path does not come to are
+/// said to have nothing.
+fn a_flat_is_pulled_apart_and_steps_beyond_its_end_are_told() {
+    let (folder, _) = scene(
+        "[grid]\npoints = 16\nsize = 1e-6\nboundary = \"free\"\n[solid]\ncontact_modulus = 1e6\n[[surface]]\nkind = \"flat\"\n[loading]\ncontrol = \"approach\"\npath = [1e-9]\nuntil = \"apart\"\n[output]\nsteps = [1, 900, 400]\n",
+    );
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let rows = rows(&folder.path().join("out"));
+    assert!((3..100).contains(&rows.len()), "{} steps", rows.len());
+    let last = &rows[rows.len() - 1];
+    assert_eq!(last[column("state")], "separated");
+    let told = format!(
+        "the path ended with step {}, and output.steps names others beyond it, step 400 and on",
+        rows.len()
+    );
+    let warnings = summary(&folder.path().join("out"))["warnings"].to_string();
+    assert!(
+        errors(&output).contains(&told) && warnings.contains(&told),
+        "{}",
+        errors(&output)
+    );
+}
+
 /// Loading and unloading are one curve, whose force is not the slope of the energies: nothing that a loop encloses is a loss.
 fn a_loop_of_the_dmt_treatment_has_no_hysteresis() {
     let (folder, _) = scene(LOOP);
@@ -1072,6 +1096,7 @@ fn a_loop_of_the_dmt_treatment_has_no_hysteresis() {
 }
 
 tests![
+    a_flat_is_pulled_apart_and_steps_beyond_its_end_are_told,
     a_loop_of_the_dmt_treatment_has_no_hysteresis,
     a_path_that_turns_back_at_its_greatest_tension_says_so,
     rounding_hides_no_pull_off_and_widens_no_bracket,
