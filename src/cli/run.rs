@@ -167,6 +167,9 @@ fn judge(end: &RunEnd, max_iterations: usize) -> Result<(), Failure> {
                 Some(Unreachable::BeyondHardness) => {
                     "the solid flows everywhere before it bears this load: end the path earlier"
                 }
+                Some(Unreachable::Unmeasured) => {
+                    "the contact is solved, and its [conductance] or [leakage] is not: allow more max_iterations"
+                }
             },
         }),
     }

@@ -113,7 +113,7 @@ impl Hooks for Conductance {
         // A reduced load over a reduced length is so many areas of a pixel over its side of E*.
         let side = problem.grid.pixel_area() / problem.scales.lateral;
         match stiffness.map(|stiffness| combined(bodies) * stiffness * side) {
-            None => solved.converged = false,
+            None => solved.leave_unmeasured(),
             // A periodic cell that is closed everywhere is infinitely stiff.
             Some(conductance) if conductance.is_finite() => {
                 solved.measured.push((CONDUCTANCE, conductance));

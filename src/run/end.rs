@@ -55,7 +55,7 @@ pub enum RunStatus {
         iterations: usize,
         /// The residual asked for.
         tolerance: f64,
-        /// Why no contact can have what it asks for, if none can.
+        /// Why it did not, if that is not for its iterations.
         unreachable: Option<Unreachable>,
     },
     /// The observer ended it.

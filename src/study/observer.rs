@@ -66,7 +66,7 @@ pub enum WalkError<E> {
     Observer(E),
 }
 
-/// A prescribed value that no contact can have.
+/// Why a step has not converged that the iterations of its contact do not explain.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum Unreachable {
@@ -74,6 +74,8 @@ pub enum Unreachable {
     BeyondClosure,
     /// A load beyond what a solid of its hardness bears everywhere.
     BeyondHardness,
+    /// The contact is solved, and its conductance or the flow through its gap is not.
+    Unmeasured,
 }
 
 /// How a path ended.
@@ -95,7 +97,7 @@ pub struct WalkEnd {
     pub hysteresis_uncertainty: Option<f64>,
     /// Whether the observer ended it.
     pub interrupted: bool,
-    /// Why its last step could not converge, if no contact can have the prescribed value.
+    /// Why its last step has not converged, if that is not for its contact's iterations.
     pub unreachable: Option<Unreachable>,
     /// Real two-dimensional transforms.
     pub transforms: f64,

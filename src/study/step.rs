@@ -20,12 +20,20 @@ pub(crate) struct SolvedStep {
     pub iterations: usize,
     /// The stopping measure.
     pub residual: f64,
-    /// Why there is nothing to solve for, if so.
+    /// Why it has not converged, if that is not for its iterations.
     pub unreachable: Option<Unreachable>,
     /// Whether the fields carry the load that was asked, where one was.
     pub load_is_met: bool,
     /// Values that effects measured on the solver.
     pub measured: Vec<(Column, f64)>,
+}
+
+impl SolvedStep {
+    /// Says that the contact is solved, and what is measured on it is not.
+    pub fn leave_unmeasured(&mut self) {
+        self.converged = false;
+        self.unreachable = Some(Unreachable::Unmeasured);
+    }
 }
 
 /// A load that the surfaces do not carry.

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use tabor::units::format_si;
 use tempfile::TempDir;
 
-use crate::shared::binary::{self, errors, status, summary, tabor};
+use crate::shared::binary::{self, errors, number, status, summary, table, tabor};
 use crate::shared::trials::tests;
 
 const HEAD: &str = "step,time,approach,mean_gap,force,mean_pressure,contact_area_fraction,attractive_area_fraction,elastic_energy,adhesive_energy,iterations,residual,converged,seconds,contact_area_fraction_corrected,state";
@@ -1095,9 +1095,34 @@ fn a_loop_of_the_dmt_treatment_has_no_hysteresis() {
     assert!(!said.contains("loses") && !page.contains("loses"), "{said}");
 }
 
+/// The contact meets its tolerance, and the conjugate gradients on it have as many iterations and do not.
+fn a_conductance_that_is_not_found_is_not_told_as_a_contact() {
+    let (folder, _) = scene(
+        "[grid]\npoints = 64\nsize = 2e-6\n[solid]\ncontact_modulus = 1e9\n[[surface]]\nkind = \"self-affine\"\nhurst = 0.8\nrms_slope = 0.1\nlongest = 2e-6\nrolloff = 1e-6\nshortest = 1e-7\n[conductance]\nconductivity = 400.0\ncounter_conductivity = 50.0\n[loading]\ncontrol = \"pressure\"\npath = [80e6]\n[output]\nimages = []\n",
+    );
+    let run = |out: &str, extra: &[&str]| {
+        let call = [&["run", "scene.toml", "--quiet", "--out", out], extra].concat();
+        let output = tabor(folder.path(), &call);
+        let row = table(&folder.path().join(out).join("curve.csv")).swap_remove(0);
+        (status(&output), errors(&output), row)
+    };
+    let (done, said, found) = run("found", &[]);
+    assert_eq!(done, 0, "{said}");
+    let most = format!("solver.max_iterations={}", found["iterations"]);
+    let (done, said, lost) = run("lost", &["--set", &most]);
+    assert_eq!(done, 3, "{said}");
+    assert!(
+        said.contains("the contact is solved, and its [conductance] or [leakage] is not"),
+        "{said}"
+    );
+    assert_eq!(lost["converged"], "false");
+    assert!(number(&lost, "residual").is_some_and(|residual| residual <= 1e-6));
+}
+
 tests![
     a_flat_is_pulled_apart_and_steps_beyond_its_end_are_told,
     a_loop_of_the_dmt_treatment_has_no_hysteresis,
+    a_conductance_that_is_not_found_is_not_told_as_a_contact,
     a_path_that_turns_back_at_its_greatest_tension_says_so,
     rounding_hides_no_pull_off_and_widens_no_bracket,
     an_attraction_that_holds_is_warned_of,
