@@ -81,6 +81,10 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
             cases: 0,
             interrupts,
         };
+        let is_own = |case: usize| arguments.only.is_none_or(|share| share.has(case));
+        if let Some(warning) = folder.without_folder(&study, is_own) {
+            warn(&warning);
+        }
         interrupted = solve(&study, &mut folder, arguments.only, jobs, &mut progress)?;
     }
     // Shares run side by side: --merge joins them.

@@ -10,7 +10,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
-use super::cases::Share;
+use super::cases::{Case, Share};
 use super::error::SweepError;
 use super::means::Means;
 use super::outcome::Outcome;
@@ -112,6 +112,26 @@ impl SweepFolder {
         Ok(())
     }
 
+    /// A warning of cases, those `own`, that were finished before the study asked for their folders.
+    pub fn without_folder(&self, study: &Study, own: impl Fn(usize) -> bool) -> Option<String> {
+        let lacks = |case: &Case| {
+            own(case.number)
+                && study.keeps(case)
+                && self.has(case.number)
+                && !case_folder(&self.path, case.number).exists()
+        };
+        let lacking: Vec<usize> = study
+            .cases()
+            .filter(lacks)
+            .map(|case| case.number)
+            .collect();
+        let first = lacking.first()?;
+        Some(format!(
+            "folders: {} of the cases that were finished before have none, the first of them case {first}, and are not solved again: name another folder for the study",
+            lacking.len()
+        ))
+    }
+
     /// Waits until all cases that are kept are on the disk.
     ///
     /// # Errors
@@ -191,6 +211,11 @@ impl SweepFolder {
         }
         Ok(())
     }
+}
+
+/// The folder of a case whose folder is kept.
+pub(super) fn case_folder(path: &Path, number: usize) -> PathBuf {
+    path.join(format!("case_{number:04}"))
 }
 
 /// Adds a case that ended; a finished one stays.

@@ -7,7 +7,7 @@ use std::time::Duration;
 
 use super::cases::{Case, Share};
 use super::error::SweepError;
-use super::folder::SweepFolder;
+use super::folder::{SweepFolder, case_folder};
 use super::outcome::Outcome;
 use super::study::Study;
 use crate::backend::cpu::with_threads;
@@ -172,7 +172,7 @@ fn solve_case(
     };
     let mut watcher = Watcher { stop };
     let solved: Result<_, RunError> = if study.keeps(case) {
-        let folder = folder.join(format!("case_{:04}", case.number));
+        let folder = case_folder(folder, case.number);
         let options = RunOptions::new().threads(threads);
         run_with(scene.clone(), &folder, &options, &mut watcher)
     } else {

@@ -309,6 +309,31 @@ fn a_case_that_did_not_converge_is_solved_again() {
     assert_eq!(first, kept);
 }
 
+/// Folders that are asked for once their cases are finished are not made, and that is said.
+fn folders_of_cases_that_are_finished_are_told_to_be_missing() {
+    let study = "scene = \"scene.toml\"\naxis = [{ key = \"surface.0.seed\", values = [1, 2] }]\n";
+    let place = folder(study);
+    let sweep = || {
+        let output = tabor(place.path(), &["sweep", "study.toml", "--out", "out"]);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        errors(&output)
+    };
+    assert!(!sweep().contains("folders"));
+    fs::write(
+        place.path().join("study.toml"),
+        format!("folders = [2]\n{study}"),
+    )
+    .expect("written");
+    let said = sweep();
+    assert!(
+        said.contains(
+            "folders: 1 of the cases that were finished before have none, the first of them case 2"
+        ),
+        "{said}"
+    );
+    assert!(!place.path().join("out/case_0002").exists());
+}
+
 /// Crops of a map, files, values that change together, and folders of chosen cases.
 fn axes_take_lists_files_and_several_keys() {
     let place = folder(
@@ -606,6 +631,7 @@ tests![
     a_case_that_fails_is_listed_and_the_others_are_solved,
     a_case_that_did_not_converge_is_solved_again,
     axes_take_lists_files_and_several_keys,
+    folders_of_cases_that_are_finished_are_told_to_be_missing,
     a_full_disk_ends_a_study_and_keeps_what_is_finished,
     the_shipped_study_runs,
     a_plot_of_what_is_not_there_is_warned_of,
