@@ -188,6 +188,23 @@ impl History {
         self.displacement = Arc::new(displacement);
     }
 
+    /// Energy of all springs after a step of `duration` (s), J.
+    fn energy(
+        &self,
+        solid: &SolidScene,
+        duration: f64,
+        solver: &mut ContactSolver,
+    ) -> Result<f64, BackendError> {
+        let modulus = effective_modulus(solid, duration);
+        let mut energy = solid.contact_modulus / modulus * solver.energy_of(&self.displacement)?;
+        for (branch, spring) in self.branches(solid) {
+            energy += branch.modulus / modulus * solver.energy_of(spring)?;
+        }
+        let problem = solver.problem();
+        let scales = problem.scales;
+        Ok(energy * (scales.length * scales.pressure * problem.grid.pixel_area()))
+    }
+
     /// The branches with their springs.
     fn branches<'a>(
         &'a self,
@@ -237,14 +254,14 @@ impl Carry for History {
             // Without pressure the solid recovers: its displacement cancels the offset.
             let displacement = offset.into_iter().map(|moved| -moved).collect();
             self.advance(solid, duration, displacement);
+            solved.left_energy = self.energy(solid, duration, solver)?;
             return Ok(());
         };
         drop(offset);
         let mut displacement = solver.gap()?;
         let problem = solver.problem();
-        let scales = problem.scales;
-        let unit = scales.length * scales.pressure * problem.grid.pixel_area();
-        let rigid = (evaluation.displacement_offset + problem.height_origin) / scales.length;
+        let length = problem.scales.length;
+        let rigid = (evaluation.displacement_offset + problem.height_origin) / length;
         let width = problem.shape.points[0];
         host_fields::change_rows(&mut displacement, width, |row, line| {
             let height_at = problem.padded_row(row);
@@ -256,13 +273,7 @@ impl Carry for History {
             *u -= depth;
         }
         self.advance(solid, duration, displacement);
-        let mut energy = 0.0;
-        let modulus = effective_modulus(solid, duration);
-        energy += solid.contact_modulus / modulus * solver.energy_of(&self.displacement)?;
-        for (branch, spring) in self.branches(solid) {
-            energy += branch.modulus / modulus * solver.energy_of(spring)?;
-        }
-        evaluation.elastic_energy = energy * unit;
+        evaluation.elastic_energy = self.energy(solid, duration, solver)?;
         Ok(())
     }
 }

@@ -24,6 +24,8 @@ pub(crate) struct SolvedStep {
     pub unreachable: Option<Unreachable>,
     /// Whether the fields carry the load that was asked, where one was.
     pub load_is_met: bool,
+    /// Elastic energy, J, where there are no fields: what a viscoelastic solid still stores while it recovers.
+    pub left_energy: f64,
     /// Values that effects measured on the solver.
     pub measured: Vec<(Column, f64)>,
 }
@@ -45,6 +47,7 @@ pub(crate) fn separated() -> SolvedStep {
         residual: 0.0,
         unreachable: None,
         load_is_met: true,
+        left_energy: 0.0,
         measured: Vec::new(),
     }
 }
@@ -161,6 +164,7 @@ pub(super) fn finish(
         },
         unreachable: None,
         load_is_met: true,
+        left_energy: 0.0,
         measured: Vec::new(),
     })
 }

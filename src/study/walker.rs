@@ -273,7 +273,7 @@ impl Walker {
             mean_pressure,
             contact_area_fraction: evaluation.map_or(0.0, |e| e.contact),
             attractive_area_fraction: evaluation.map_or(0.0, |e| e.attracted),
-            elastic_energy: evaluation.map_or(0.0, |e| e.elastic_energy),
+            elastic_energy: evaluation.map_or(solved.left_energy, |e| e.elastic_energy),
             adhesive_energy: evaluation.map_or(0.0, |e| e.adhesive_energy),
             iterations: solved.iterations,
             residual: solved.residual,

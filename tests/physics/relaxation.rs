@@ -1,6 +1,7 @@
 //! A solid that relaxes: creep under a sphere, order in the time step, limits, and adhesion that
 //! depends on time.
 
+use tabor::study::{State, StepRow};
 use tabor::theory::viscoelastic::Solid;
 
 use crate::bench::{Solved, solve_table};
@@ -213,7 +214,30 @@ fn a_dent_recovers() {
     assert!(at_once < 0.6 * first, "{at_once} {first}");
 }
 
+/// Under no load the surfaces part, and the springs of the solid still pull at each other: what they store falls to nothing as it recovers.
+fn a_solid_without_load_stores_energy_while_it_recovers() {
+    let solved = solve_table(&sphere(
+        "",
+        &format!(
+            "control = \"force\"\nstart = {FORCE}\n[[loading.ramp]]\nhold = 1.0\nsteps = 5\n[[loading.ramp]]\nto = 0.0\nsteps = 1\nduration = 0.1\n[[loading.ramp]]\nhold = 300.0\nsteps = 6"
+        ),
+    ));
+    let rows: Vec<&StepRow> = solved.rows().collect();
+    let stored: Vec<f64> = rows[5..].iter().map(|row| row.elastic_energy).collect();
+    assert!(rows[6..].iter().all(|row| row.state == State::Separated));
+    assert!(
+        stored.windows(2).all(|pair| pair[1] < pair[0]),
+        "{stored:?}"
+    );
+    assert!(stored[1] > 1e-3 * stored[0], "{stored:?}");
+    assert!(
+        stored[7] < 1e-3 * stored[0] && stored[7] >= 0.0,
+        "{stored:?}"
+    );
+}
+
 tests![
+    a_solid_without_load_stores_energy_while_it_recovers,
     a_sphere_creeps,
     second_order_in_the_time_step,
     instant_and_relaxed_limits,
