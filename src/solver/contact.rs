@@ -190,6 +190,8 @@ impl<'a> ContactSolver<'a> {
             .conducts
             .then(|| problem.spectrum(backend, level, "compliance", Response::Compliance));
         let params = params_of_problem(problem, backend.epsilon());
+        // Energies are asked for before the first load as well: a solid may recover in a step of its own.
+        backend.set_params(&params);
         let kernels = KernelSet::new(problem);
         let mut solver = ContactSolver {
             backend: held,

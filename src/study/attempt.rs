@@ -111,8 +111,7 @@ impl Attempt<'_> {
     ) -> Result<Outcome, BackendError> {
         let settings = &self.setup.scene.solver;
         for _ in 0..FURTHER_STARTS {
-            let is_open =
-                outcome.status == Status::Stalled && outcome.residual > self.tolerance;
+            let is_open = outcome.status == Status::Stalled && outcome.residual > self.tolerance;
             let is_held = self.problem.hardness.is_some();
             let left = settings.max_iterations.saturating_sub(outcome.iterations);
             if !is_open || is_held || !self.problem.law.has_wall() || left == 0 {

@@ -184,6 +184,10 @@ const OUT_OF_REACH: &[(&str, &str)] = &[
     ),
     ("ContactError::Backend", "passes the device's failure on"),
     ("Stopped::Out", "a model of compare ends; a note says why"),
+    (
+        "Stopped::End",
+        "a model of compare ends after some of its rows; a note says why",
+    ),
     ("Stopped::Theory", "passes a theory's own range on"),
     ("Stopped::Output", "passes an output's failure on"),
 ];
