@@ -72,11 +72,11 @@ fn describe(found: &[AdapterDescription]) -> String {
     }
     lines.push(match (best(found), found) {
         (Some(adapter), _) => format!(
-            "auto          {}, from 256 x 256 solved points on: in single precision for tolerances from {:e}, in mixed below; {}; the processor for smaller grids",
+            "auto          {}, from 512 x 512 solved points on: in single precision for tolerances from {:e}, in mixed below; {}; the processor for smaller grids",
             adapter.name,
             Precision::SINGLE_FLOOR,
             match adapter.double {
-                true => "from 512 x 512 on for precision = \"double\"",
+                true => "in double for precision = \"double\"",
                 false => "the processor for precision = \"double\"",
             }
         ),

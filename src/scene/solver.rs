@@ -22,10 +22,8 @@ impl Default for SolverScene {
 }
 
 /// Solved points from which `auto` looks for a graphics processor: fewer fill none, and are done before one is
-/// ready.
-const FEWEST_POINTS: usize = 256 * 256;
-/// The same where the scene asks for double precision, which many adapters compute slowly.
-const FEWEST_POINTS_IN_DOUBLE: usize = 512 * 512;
+/// ready. On 256 x 256 an H200 takes twice as long as 16 threads (docs/benchmarks.md).
+const FEWEST_POINTS: usize = 512 * 512;
 
 /// Points of the surface from which `auto` takes mixed precision on the processor: it is faster with every law there, while fewer
 /// points gain less than the steps of a path lose in further rounds.
@@ -79,9 +77,6 @@ impl Scene {
         match self.solver.backend {
             BackendName::Cpu => false,
             BackendName::Gpu => true,
-            BackendName::Auto if self.arithmetic_on_gpu() == Precision::Double => {
-                points >= FEWEST_POINTS_IN_DOUBLE
-            }
             BackendName::Auto => points >= FEWEST_POINTS,
         }
     }
