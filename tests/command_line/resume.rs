@@ -396,7 +396,7 @@ fn fields_before_a_step_without_any_stay() {
     };
     let whole = run(&[]);
     assert!(run(&["--resume"]) == whole);
-    // Of a run that was killed in its third step there are none, which one that is resumed there says.
+    // A run killed in its third step has none of them; the one that resumes it there says so.
     for part in ["fields", "images"] {
         fs::remove_dir_all(folder.join("out").join(part)).expect("it is removed");
     }
