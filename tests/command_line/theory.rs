@@ -725,7 +725,7 @@ fn spectra_have_the_reference_values() {
     assert_eq!(sticks.words("sticky"), ["yes", "no"]);
 }
 
-/// A rough and stiff surface has a table: its pull-off is below the least number, or there is none.
+/// A rough and stiff surface that does not stick has a table as well: its pull-off is 0, or "none".
 fn surfaces_without_pull_off_have_their_tables() {
     let rough = "--radius \"10 um\" --density \"0.01 1/um^2\" --rms_height \"1 um\" --contact_modulus \"100 GPa\" --points 3";
     let hard = Table::from_example("gw", rough).column("mean_pressure");

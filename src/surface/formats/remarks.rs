@@ -111,7 +111,7 @@ impl Remarks {
         are_heads && self.number_unit(columns, has_places).is_none()
     }
 
-    /// A warning of numbers that are no lengths, as a comment says.
+    /// A warning where a comment gives the numbers a unit that is not a length.
     pub fn other_unit(&self) -> Option<String> {
         let unit = quoted(self.other_unit.as_deref()?);
         Some(format!(
