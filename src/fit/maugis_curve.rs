@@ -11,6 +11,8 @@ use crate::theory::maugis_dugdale::{FOLD_LAMBDA, MaugisDugdale};
 const NODES: usize = 320;
 /// Contact radius up to which the nodes are evenly spaced; beyond it the spacing grows.
 const EVEN: f64 = 0.8;
+/// Equal parts of the roots, each of which knows its first node.
+const PARTS: usize = 1024;
 /// Contact radius that represents the first touch.
 const TOUCH: f64 = 1e-6;
 
@@ -22,6 +24,9 @@ pub(super) struct MaugisCurve {
     /// fold.
     roots: Vec<f64>,
     forces: Vec<f64>,
+    /// For each of [`PARTS`] the first node that is not below it, and how many parts a root of 1 spans.
+    nodes: Vec<usize>,
+    parts: f64,
     /// For each four neighbouring nodes the cubic through them, by Newton's divided differences.
     cubics: Vec<[f64; 4]>,
     /// Approach of the first node: the fold, or the first touch.
@@ -62,8 +67,12 @@ impl MaugisCurve {
             .zip(forces.windows(4))
             .map(|(x, y)| divided_differences(x, y))
             .collect();
+        let parts = PARTS as f64 / roots.last().copied().unwrap_or(1.0);
+        let below = |part: usize| roots.partition_point(|node| ((node * parts) as usize) < part);
         Ok(MaugisCurve {
             model,
+            nodes: (0..=PARTS).map(below).collect(),
+            parts,
             roots,
             forces,
             cubics,
@@ -94,7 +103,11 @@ impl MaugisCurve {
 
     /// The cubic through the four nodes around a place.
     fn interpolated(&self, root: f64) -> f64 {
-        let after = self.roots.partition_point(|node| *node <= root);
+        // Nodes of a lesser part are lower than the root.
+        let mut after = self.nodes[((root * self.parts) as usize).min(PARTS)];
+        while self.roots.get(after).is_some_and(|node| *node <= root) {
+            after += 1;
+        }
         let from = after.saturating_sub(2).min(self.cubics.len() - 1);
         let (x, c) = (&self.roots[from..from + 3], &self.cubics[from]);
         c[0] + (root - x[0]) * (c[1] + (root - x[1]) * (c[2] + (root - x[2]) * c[3]))

@@ -79,8 +79,36 @@ impl Parameters {
     }
 }
 
-/// Force as a function of approach.
-pub(super) type ForceByApproach = Box<dyn Fn(f64) -> Result<f64, TheoryError>>;
+/// Force by approach of a model, in the units of the indenter.
+#[derive(Clone, Debug)]
+pub(super) enum ReducedForce {
+    /// The power of the approach.
+    Hertz,
+    Dmt,
+    /// JKR of a sphere.
+    Jkr,
+    /// JKR of a cone or a pyramid.
+    Cone,
+    MaugisDugdale(Rc<MaugisCurve>),
+}
+
+impl ReducedForce {
+    /// Force at an approach.
+    #[inline]
+    pub(super) fn at(&self, approach: f64) -> Result<f64, TheoryError> {
+        Ok(match self {
+            ReducedForce::Hertz => approach.max(0.0).powf(1.5),
+            ReducedForce::Dmt => approach.max(0.0).powf(1.5) - 2.0,
+            ReducedForce::Cone => adhesive_cone::force(approach),
+            ReducedForce::Jkr => {
+                let least = jkr::reduced_approach(jkr::grip());
+                let radius = jkr::reduced_radius_at_approach(approach.max(least))?;
+                jkr::reduced_force(radius)
+            }
+            ReducedForce::MaugisDugdale(table) => table.force(approach),
+        })
+    }
+}
 
 /// A model of an indenter, with its most recent tables.
 #[derive(Clone, Debug)]
@@ -121,46 +149,36 @@ impl IndenterModel {
             approach_offset,
             ..
         } = *parameters;
-        let force: ForceByApproach = if self.model == Model::Hertz {
+        let baseline = |approach: f64| parameters.baseline(approach);
+        if self.model == Model::Hertz {
             let stiffness = contact_modulus * self.indenter.stiffness();
             let power = self.indenter.power();
-            Box::new(move |place: f64| Ok(stiffness * place.max(0.0).powf(power)))
-        } else {
-            let (force_unit, approach_unit) =
-                self.indenter.units(contact_modulus, work_of_adhesion);
-            let deepest = approaches.iter().fold(0.0_f64, |most, approach| {
-                most.max((approach - approach_offset) / approach_unit)
-            });
-            let reduced = self.reduced(maugis_parameter, deepest)?;
-            Box::new(move |place: f64| Ok(force_unit * reduced(place / approach_unit)?))
+            let force =
+                |approach: f64| stiffness * (approach - approach_offset).max(0.0).powf(power);
+            let forces = approaches.iter().map(|at| baseline(*at) + force(*at));
+            return Ok(forces.collect());
+        }
+        let (force_unit, approach_unit) = self.indenter.units(contact_modulus, work_of_adhesion);
+        let deepest = approaches.iter().fold(0.0_f64, |most, approach| {
+            most.max((approach - approach_offset) / approach_unit)
+        });
+        let reduced = self.reduced(maugis_parameter, deepest)?;
+        let force = |approach: f64| {
+            let reduced = reduced.at((approach - approach_offset) / approach_unit)?;
+            Ok(force_unit * reduced)
         };
-        approaches
-            .iter()
-            .map(|approach| Ok(parameters.baseline(*approach) + force(approach - approach_offset)?))
-            .collect()
+        let forces = approaches.iter().map(|at| Ok(baseline(*at) + force(*at)?));
+        forces.collect()
     }
 
     /// Force by approach in the units of the indenter, up to an approach. Without adhesion a cone is not reduced.
-    pub(super) fn reduced(
-        &self,
-        lambda: f64,
-        deepest: f64,
-    ) -> Result<ForceByApproach, TheoryError> {
+    pub(super) fn reduced(&self, lambda: f64, deepest: f64) -> Result<ReducedForce, TheoryError> {
         Ok(match self.model {
-            Model::Hertz => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5))),
-            Model::Dmt => Box::new(|approach: f64| Ok(approach.max(0.0).powf(1.5) - 2.0)),
-            Model::Jkr if self.is_sharp() => {
-                Box::new(|approach: f64| Ok(adhesive_cone::force(approach)))
-            }
-            Model::Jkr => Box::new(|approach: f64| {
-                let least = jkr::reduced_approach(jkr::grip());
-                let radius = jkr::reduced_radius_at_approach(approach.max(least))?;
-                Ok(jkr::reduced_force(radius))
-            }),
-            Model::MaugisDugdale => {
-                let table = self.table(lambda, deepest)?;
-                Box::new(move |approach: f64| Ok(table.force(approach)))
-            }
+            Model::Hertz => ReducedForce::Hertz,
+            Model::Dmt => ReducedForce::Dmt,
+            Model::Jkr if self.is_sharp() => ReducedForce::Cone,
+            Model::Jkr => ReducedForce::Jkr,
+            Model::MaugisDugdale => ReducedForce::MaugisDugdale(self.table(lambda, deepest)?),
         })
     }
 
@@ -199,7 +217,7 @@ impl IndenterModel {
             4.0 + (force.max(0.0) + 2.2).powf(2.0 / 3.0)
         };
         let reduced = self.reduced(lambda, high)?;
-        let excess = |approach: f64| reduced(approach).map_or(f64::NAN, |at| at - force);
+        let excess = |approach: f64| reduced.at(approach).map_or(f64::NAN, |at| at - force);
         crate::theory::roots::root("a contact at this force", excess, low, high, 1e-9)
     }
 

@@ -78,7 +78,7 @@ pub(super) fn scale_grid(measured: &Measured, tip: &IndenterModel, lambda: f64) 
                     if free_beyond && place < pull_off {
                         Some(0.0)
                     } else {
-                        reduced(place).ok()
+                        reduced.at(place).ok()
                     }
                 };
                 let Some((force_unit, force_offset, baseline_slope)) =

@@ -82,12 +82,13 @@ impl Strip {
         ))
     }
 
-    /// Shares by which it comes off and closes late, to the steps of `STEP`.
-    fn late(&self, law: &str) -> [f64; 2] {
+    /// Shares by which it comes off and closes late, to the steps of `STEP`, at most `most`.
+    fn late(&self, law: &str, most: f64) -> [f64; 2] {
         let turns = self.closed_form();
         let shares: Vec<f64> = [0.7, 0.9]
             .into_iter()
-            .chain((0..).map(|i| 0.96 + STEP * f64::from(i)).take(COUNT))
+            .chain((0..).map(|i| FIRST + STEP * f64::from(i)))
+            .take_while(|share| *share <= 1.0 + most)
             .collect();
         let path = |start: f64, turn: f64| -> Vec<f64> {
             let way = shares.iter().map(|share| share * turn);
@@ -112,9 +113,9 @@ impl Strip {
     }
 }
 
-/// Step of the load around a turn, as a share of it, and how many of them: up to 12 % beyond.
+/// The first load near a turn, and the step from there on, as shares of it.
+const FIRST: f64 = 0.96;
 const STEP: f64 = 0.002;
-const COUNT: usize = 80;
 
 /// Off and closed within 1.5 % of the closed form at chi 0.25 and 1 % at 0.1, which is what the width was
 /// chosen by; half a step besides. An exponential law, whose edge is free at these chi, is the control.
@@ -140,7 +141,7 @@ fn straight_edges_are_free() {
             assert!((off / FULL / johnson.pull_off - 1.0).abs() < 2e-3);
             assert!((closing / FULL / johnson.closing_pressure - 1.0).abs() < 2e-3);
         }
-        let late = strip.late("maugis-dugdale");
+        let late = strip.late("maugis-dugdale", 2.0 * allowed);
         println!(
             "{points} points, alpha {adhesion}, chi {chi}: off {:+.2} %, closed {:+.2} %",
             100.0 * late[0],
@@ -160,7 +161,7 @@ fn straight_edges_are_free() {
         chi: 0.25,
         along_y: false,
     };
-    let late = strip.late("exponential");
+    let late = strip.late("exponential", 0.02);
     assert!(late.iter().all(|late| late.abs() < 0.01), "{late:?}");
 }
 
@@ -179,7 +180,7 @@ fn trapped_edges_are_warned_of() {
             chi,
             along_y: false,
         };
-        let [off, _] = strip.late("maugis-dugdale");
+        let [off, _] = strip.late("maugis-dugdale", 0.12);
         println!("chi {chi}: off {:+.2} %", 100.0 * off);
         assert!(off < allowed + STEP, "chi {chi}: {off}");
         let said = strip.solve("maugis-dugdale", &[0.0]).setup.warnings;
@@ -272,7 +273,7 @@ fn sphere_errors(lambda: f64, points: usize, narrow: bool) -> ([f64; 2], f64) {
         ))
     };
     let mut path = vec![0.0, -0.6 * pull_off, -0.9 * pull_off];
-    path.extend((0..40).map(|i| -pull_off * (0.96 + LOAD_STEP * f64::from(i))));
+    path.extend((0..32).map(|i| -pull_off * (0.96 + LOAD_STEP * f64::from(i))));
     let held = solve("force", &path)
         .rows()
         .filter(|row| row.state != State::Separated)

@@ -15,7 +15,7 @@ fn sphere(branches: &str, adhesion: &str, loading: &str) -> Solved {
     solve_table(&format!(
         r#"
         [grid]
-        points = 48
+        points = 32
         size = 2.0
         boundary = "free"
         [solid]

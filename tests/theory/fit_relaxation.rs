@@ -60,7 +60,7 @@ fn fit(curve: &ForceCurve, relaxation: bool, baseline: bool) -> Result<FitResult
 /// The force falls while the approach is held; its sign is right all the same, and a wrong one is found.
 #[test]
 fn a_hold_does_not_decide_the_sign() {
-    for (points, held) in [(401, 400), (401, 100), (201, 1800)] {
+    for (points, held) in [(201, 200), (201, 50), (101, 900)] {
         let (times, approaches) = ramp_and_hold(points, held, 0.2, 1e-6);
         let curve = pressed([1e6, 2e6, 0.05], &times, &approaches, 0.003, 3);
         let result = fit(&curve, false, false).expect("signs that are right");
