@@ -17,7 +17,9 @@ pub(super) struct Edge {
 impl Edge {
     /// The edge of the points of a grid that touch.
     ///
-    /// The staircase of pixels is 4/pi times as long as an isotropic edge.
+    /// Its length is that of the ellipse whose pixels have as much edge along x and along y: a circle's staircase is 4/pi
+    /// times as long as the circle, while an edge along the grid, as that of a ridge, has no staircase. By the second formula of
+    /// Ramanujan 1914, which is exact for a circle and 4e-4 short for an edge along the grid.
     ///
     /// # Errors
     /// Another rank has ended.
@@ -36,22 +38,28 @@ impl Edge {
             true => &after[..],
             false => &touches[row * nx..(row + 1) * nx],
         };
-        let [staircase] = share.sums(rows.len(), |row, [staircase]| {
+        let [along_x, along_y] = share.sums(rows.len(), |row, [along_x, along_y]| {
             let (here, next) = (line(row), line(row + 1));
             let is_followed = rows.start + row + 1 < ny || wraps;
             for x in 0..nx {
                 if (x + 1 < nx || wraps) && here[x] != here[(x + 1) % nx] {
-                    *staircase += grid.dy();
+                    *along_y += grid.dy();
                 }
                 if is_followed && here[x] != next[x] {
-                    *staircase += grid.dx();
+                    *along_x += grid.dx();
                 }
             }
         });
+        let staircase = along_x + along_y;
+        let narrow = match staircase > 0.0 {
+            true => ((along_x - along_y) / staircase).powi(2),
+            false => 0.0,
+        };
+        let longer = 1.0 + 3.0 * narrow / (10.0 + (4.0 - 3.0 * narrow).sqrt());
         let [count] = share.counts([touches.iter().filter(|&&touches| touches > 0).count()]);
         Ok(Edge {
             area: count as f64 * grid.pixel_area(),
-            length: FRAC_PI_4 * staircase,
+            length: FRAC_PI_4 * staircase * longer,
         })
     }
 
@@ -72,6 +80,29 @@ impl Edge {
 mod tests {
     use super::*;
     use crate::backend::Shape;
+
+    /// The edges of a ridge are straight, on a profile too: the formula is 4e-4 short of them. That of an ellipse of
+    /// semi-axes 60 and 15 is 257.35 long, which its pixels know to a few per cent.
+    #[test]
+    fn ridges_and_ellipses() {
+        let length = |[nx, ny]: [usize; 2], touches: &dyn Fn(f64, f64) -> bool| {
+            let grid = Grid::new([nx, ny], [nx as f64, 0.5 * ny as f64]);
+            let touches: Vec<bool> = (0..grid.len())
+                .map(|i| touches((i % nx) as f64, 0.5 * (i / nx) as f64))
+                .collect();
+            let share = Share::whole(Shape::whole(nx, ny));
+            let edge = Edge::new(&touches, &share, &grid, Boundary::Periodic);
+            edge.expect("one process").length
+        };
+        let near = |found: f64, expected: f64, share: f64| {
+            assert!((found / expected - 1.0).abs() < share, "{found} {expected}");
+        };
+        near(length([50, 1], &|x, _| x < 20.0), 2.0 * 0.5, 5e-4);
+        near(length([50, 8], &|x, _| x < 20.0), 2.0 * 4.0, 5e-4);
+        near(length([8, 50], &|_, y| y < 10.0), 2.0 * 8.0, 5e-4);
+        let ellipse = |x: f64, y: f64| ((x - 69.5) / 60.0).hypot((y - 24.75) / 15.0) < 1.0;
+        near(length([140, 100], &ellipse), 257.4, 0.02);
+    }
 
     /// A disc of 40 pixels that shrinks by 4 within 2 s; its pixels know the radius to a fraction of one.
     #[test]
