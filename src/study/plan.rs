@@ -99,20 +99,43 @@ impl Plan {
         }
     }
 
-    /// Pixels across the shortest wave that the scene names, along the longer pixel side.
+    /// Pixels across the shortest wave that the scene names: along the longer pixel side where waves run in all directions.
     pub fn pixels_a_wave(&self) -> Option<f64> {
-        let pixel = self.outline.grid.longer_pixel();
+        let grid = self.outline.grid;
         self.scene
             .surfaces
             .iter()
             .filter_map(|part| match part {
-                SurfacePart::SelfAffine(rough) => Some(rough.shortest),
+                SurfacePart::SelfAffine(rough) => Some(rough.shortest / grid.longer_pixel()),
                 SurfacePart::Wavy { wavelength, .. } => {
-                    Some(wavelength[0].min(wavelength[1])).filter(|length| length.is_finite())
+                    let [x, y] = wavelength;
+                    Some((x / grid.dx()).min(y / grid.dy())).filter(|pixels| pixels.is_finite())
                 }
                 _ => None,
             })
-            .map(|length| length / pixel)
             .reduce(f64::min)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wave runs across one side of the pixels, and has as many as lie along it.
+    #[test]
+    fn waves_have_the_pixels_of_their_own_axis() {
+        let pixels = |points: [usize; 2], wavelength: &str| {
+            let text = format!(
+                "[grid]\npoints = {points:?}\nsize = 1.0\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"wavy\"\namplitude = 0.02\nwavelength = {wavelength}\n[loading]\ncontrol = \"pressure\"\npath = [0.01]\n"
+            );
+            let scene = Scene::parse(&text, "wave.toml", ".".as_ref(), &[]);
+            let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
+            let plan = Plan::for_scene(scene).expect("a surface");
+            (plan.pixels_a_wave(), plan.warnings.len())
+        };
+        assert_eq!(pixels([64, 4], "0.5"), (Some(32.0), 0));
+        assert_eq!(pixels([64, 4], "[0.5, \"inf\"]"), (Some(32.0), 0));
+        assert_eq!(pixels([4, 64], "[\"inf\", 0.5]"), (Some(32.0), 0));
+        assert_eq!(pixels([64, 4], "[0.5, 1.0]"), (Some(4.0), 1));
     }
 }
