@@ -30,7 +30,8 @@ impl Hooks for LayerEffect {
 
     fn matters(&self, plan: &Plan) -> String {
         let grid = plan.outline.grid;
-        let longest = grid.lx.max(grid.ly);
+        let [x, y] = grid.varying(grid.size());
+        let longest = x.max(y);
         let stiffer = plan.scene.solid.layer.map_or(1.0, |layer| {
             1.0 / layer.compliance(2.0 * std::f64::consts::PI / longest)
         });

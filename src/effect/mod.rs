@@ -208,6 +208,25 @@ mod tests {
         assert!(places.iter().copied().eq(0..places.len()), "{places:?}");
     }
 
+    /// However far a profile goes across, the cell is as long and as wide as the profile.
+    #[test]
+    fn what_matters_along_a_profile() {
+        let words = |name: &str, across: &str| {
+            let text = format!(
+                "[grid]\npoints = [32, 1]\nsize = [1.0, {across}]\n[solid]\ncontact_modulus = 1.0\npoisson_ratio = 0.3\nthickness = 0.2\n[[surface]]\nkind = \"wavy\"\namplitude = 0.02\nwavelength = [1.0, \"inf\"]\n[adhesion]\nlaw = \"exponential\"\nwork_of_adhesion = 1e-4\nrange = 0.02\nrate = {{ reference_speed = 0.05, exponent = 0.5 }}\n[loading]\ncontrol = \"approach\"\nstart = 0.0\n[[loading.ramp]]\nto = 0.01\nsteps = 1\nduration = 1\n"
+            );
+            let scene = Scene::parse(&text, "profile.toml", Path::new("."), &[]);
+            let scene = scene.unwrap_or_else(|errors| panic!("{errors}"));
+            let plan = Plan::for_scene(scene).expect("a surface");
+            Effect::from_name(name).expect("an effect").matters(&plan)
+        };
+        for name in ["layer", "rate"] {
+            let narrow = words(name, "0.03");
+            assert_eq!(narrow, words(name, "1.0"));
+            assert_eq!(narrow, words(name, "7.0"));
+        }
+    }
+
     /// The example of each effect asks for it, and without it the scene does not.
     #[test]
     fn an_example_asks_for_its_effect() {

@@ -66,12 +66,13 @@ impl Hooks for Rate {
 
     fn matters(&self, plan: &Plan) -> String {
         let grid = plan.outline.grid;
+        let [x, y] = grid.varying(grid.size());
         let path: f64 = plan.scene.loading.durations.iter().flatten().sum();
         let reference = rate_of(&plan.scene).map_or(0.0, |rate| rate.reference_speed);
         format!(
             "matters where contacts recede at speeds not far below the reference: half the cell within the path's {} would be {:.2e} of it; one speed stands for the whole edge",
             format_si(path, "s"),
-            0.5 * grid.lx.min(grid.ly) / path / reference
+            0.5 * x.min(y) / path / reference
         )
     }
 
