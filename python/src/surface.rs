@@ -84,6 +84,7 @@ pub fn statistics<'py>(
     is_periodic: bool,
 ) -> PyResult<Bound<'py, PyDict>> {
     let map = Map::new(py, heights, size, is_periodic)?;
+    let grid = map.grid;
     let (found, shape, length) = detached(py, move || {
         (
             Statistics::from_heights(&map.grid, &map.heights, map.boundary),
@@ -92,6 +93,7 @@ pub fn statistics<'py>(
         )
     })?;
     let moments = found.moments;
+    let along = found.along_a_profile(&grid);
     let table = PyDict::new(py);
     table.set_item("mean", found.mean)?;
     table.set_item("lowest", found.lowest)?;
@@ -103,9 +105,9 @@ pub fn statistics<'py>(
     table.set_item("rms_slope", moments.rms_slope())?;
     table.set_item("rms_curvature", moments.rms_curvature())?;
     table.set_item("correlation_length", length)?;
-    table.set_item("nayak_parameter", moments.nayak())?;
-    table.set_item("summit_density", moments.summit_density())?;
-    table.set_item("mean_summit_height", moments.mean_summit_height())?;
+    table.set_item("nayak_parameter", along.nayak())?;
+    table.set_item("summit_density", along.summit_density())?;
+    table.set_item("mean_summit_height", along.mean_summit_height())?;
     table.set_item("mean_summit_radius", moments.mean_radius())?;
     Ok(table)
 }

@@ -70,6 +70,19 @@ impl Statistics {
             moments: SpectralMoments::from_isotropic([height, slope, curvature]),
         }
     }
+
+    /// Moments of a profile through an isotropic surface of these statistics; of a line scan those of the scan itself, whose
+    /// slopes all lie along it.
+    pub fn along_a_profile(&self, grid: &Grid) -> SpectralMoments {
+        if grid.nx > 1 && grid.ny > 1 {
+            return self.moments;
+        }
+        SpectralMoments {
+            m0: self.moments.m0,
+            m2: self.moments.rms_slope().powi(2),
+            m4: self.moments.rms_curvature().powi(2),
+        }
+    }
 }
 
 /// All rows of a grid, on this process.
@@ -427,6 +440,29 @@ mod tests {
             1.0,
             max_relative = 1e-12
         );
+    }
+
+    /// h = cos 2x: <h'^2> = 2, <h''^2> = 8, and a Nayak number of 1, as a wave has along its profile.
+    #[test]
+    fn a_line_scan_has_its_own_moments() {
+        for points in [[16, 1], [1, 16], [16, 4]] {
+            let grid = Grid::new(points, [2.0 * PI, 2.0 * PI]);
+            let along = |i: usize| if points[0] == 1 { i } else { i % 16 };
+            let heights: Vec<f64> = (0..grid.len())
+                .map(|i| (4.0 * PI * along(i) as f64 / 16.0).cos())
+                .collect();
+            let statistics = Statistics::from_heights(&grid, &heights, Boundary::Periodic);
+            let moments = statistics.along_a_profile(&grid);
+            let expected = if points[1] == 4 {
+                // As if the waves of a surface ran in all directions.
+                [0.5, 1.0, 3.0]
+            } else {
+                [0.5, 2.0, 8.0]
+            };
+            for (found, expected) in [moments.m0, moments.m2, moments.m4].iter().zip(expected) {
+                assert_relative_eq!(*found, expected, max_relative = 1e-12);
+            }
+        }
     }
 
     #[test]

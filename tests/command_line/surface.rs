@@ -302,6 +302,11 @@ fn a_line_scan_is_refused_or_taken_as_a_profile() {
         [40.0, 1.0]
     );
     close(quantity(&found, "rms_height"), 1e-8 / 2_f64.sqrt(), 1e-5);
+    // Its moments are those of the profile that it is.
+    let square = (std::f64::consts::TAU / 4e-6).powi(2);
+    close(quantity(&found, "m2"), 0.5 * square * 1e-16, 1e-5);
+    close(quantity(&found, "m4"), 0.5 * square * square * 1e-16, 1e-5);
+    close(quantity(&found, "nayak"), 1.0, 1e-5);
     // Places may have a unit of their own, and few digits: 1/3 um, rounded by up to 1 % of a step.
     let lines: String = (0..40)
         .map(|at| format!("{:.2} {:e}\n", at as f64 / 3.0, height(at)))

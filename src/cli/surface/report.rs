@@ -155,6 +155,7 @@ impl<'a> Report<'a> {
         let grid = &self.surface.grid;
         let found = &self.statistics;
         let moments = &found.moments;
+        let along = found.along_a_profile(grid);
         let found_heights = HeightParameters::new(&self.surface.heights);
         let [longest, shortest] = self.reliable();
         [
@@ -170,11 +171,11 @@ impl<'a> Report<'a> {
             Some(moments.rms_height()),
             Some(moments.rms_slope()),
             Some(moments.rms_curvature()),
-            Some(moments.m0),
-            Some(moments.m2),
-            Some(moments.m4),
-            moments.nayak(),
-            moments.summit_density(),
+            Some(along.m0),
+            Some(along.m2),
+            Some(along.m4),
+            along.nayak(),
+            along.summit_density(),
             moments.mean_radius(),
             length_of(&self.correlation),
             Some(found_heights.mean_deviation),
