@@ -72,6 +72,11 @@ pub enum BandFitError {
     /// A map without roughness.
     #[error("the surface is flat")]
     Flat,
+    /// A line scan.
+    #[error(
+        "a line scan has waves along one axis, and the fit is of a surface that has them in all directions; take a map"
+    )]
+    LineScan,
     /// Too few waves to fit a power law.
     #[error(
         "{rings} rings of the spectrum are too few, {FEWEST_RINGS} are needed; take a map of more points"
@@ -85,7 +90,7 @@ pub enum BandFitError {
 /// Fits a self-affine spectrum to the map.
 ///
 /// # Errors
-/// A map that is flat or has too few waves.
+/// A map that is flat, is a line scan, or has too few waves.
 pub fn fit(
     grid: &Grid,
     heights: &[f64],
@@ -99,6 +104,9 @@ pub fn fit(
     // Rounding of a constant map is not roughness.
     if greatest - least <= 1e-12 * greatest.abs().max(least.abs()) {
         return Err(BandFitError::Flat);
+    }
+    if grid.nx == 1 || grid.ny == 1 {
+        return Err(BandFitError::LineScan);
     }
     let first = first_wavenumber(grid);
     // Rings beyond the two-pixel wave along the coarser axis are incomplete.

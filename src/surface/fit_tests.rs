@@ -111,6 +111,12 @@ fn maps_without_a_spectrum_are_refused() {
         fit(&grid, &vec![2.0; 4096], Boundary::Periodic),
         Err(BandFitError::Flat)
     );
+    let scan: Vec<f64> = (0..4096).map(|i| f64::from((i * 7) % 5)).collect();
+    for points in [[4096, 1], [1, 4096]] {
+        let grid = Grid::new(points, [1.0, 1.0]);
+        let refused = fit(&grid, &scan, Boundary::Periodic);
+        assert_eq!(refused, Err(BandFitError::LineScan));
+    }
     let grid = Grid::new([4, 4], [1.0, 1.0]);
     let heights: Vec<f64> = (0..16).map(|i| f64::from((i * 7) % 5)).collect();
     let refused = fit(&grid, &heights, Boundary::Free);

@@ -440,8 +440,9 @@ fn library() -> Vec<Reached> {
         reached("PartError::File", of_part(file(1.0)), "[[surface]] 1: map.txt: there is no such file"),
         reached("FileError::Factor", of_part(file(0.0)), "scale = 0e0 must be between 1e-30 and 1e30, or minus that; check the powers of ten"),
         reached("FileError::TooLong", long_text(), "bytes are too many to read; save the heights as .npy"),
-        reached("BandFitError::Flat", fit_band(4, 0.0), "the surface is flat"),
-        reached("BandFitError::TooFewRings", fit_band(4, 1.0), "rings of the spectrum are too few"),
+        reached("BandFitError::Flat", fit_band([4, 4], 0.0), "the surface is flat"),
+        reached("BandFitError::LineScan", fit_band([64, 1], 1.0), "a line scan has waves along one axis"),
+        reached("BandFitError::TooFewRings", fit_band([4, 4], 1.0), "rings of the spectrum are too few"),
         reached("OutputError::NotFinite", write_picture(&nowhere, &picture).expect_err("no picture").to_string(), "cannot draw the gap: 64 of 64 points are not finite numbers"),
         reached("TheoryError::NoSolution", root("a zero", |x| x * x + 1.0, -1.0, 1.0, 1e-12).expect_err("no zero").to_string(), "a zero does not exist for these values"),
     ]
@@ -460,10 +461,10 @@ fn factors(values: [f64; 9], points: [usize; 2]) -> String {
 }
 
 /// Why a map of a few points has no self-affine fit.
-fn fit_band(points: usize, last: f64) -> String {
-    let mut heights = vec![0.0; points * points];
-    heights[points] = last;
-    let grid = Grid::new([points; 2], [1.0; 2]);
+fn fit_band(points: [usize; 2], last: f64) -> String {
+    let mut heights = vec![0.0; points[0] * points[1]];
+    heights[4] = last;
+    let grid = Grid::new(points, [1.0; 2]);
     fit(&grid, &heights, Boundary::Periodic)
         .expect_err("no fit")
         .to_string()
