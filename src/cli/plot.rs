@@ -3,7 +3,6 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use csv::StringRecord;
 
 use super::{Failure, say, warn};
 use crate::fit::ColumnChoice;
@@ -15,6 +14,8 @@ use crate::units::parse_any_quantity;
 
 /// Points of a curve up to which each is marked.
 const MARKED: usize = 60;
+/// The column that says whether a step converged.
+const CONVERGED: &str = "converged";
 /// First columns of the data.
 const HEAD: [&str; 2] = ["run", "row"];
 
@@ -55,6 +56,7 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
             run.expect(name)?;
         }
     }
+    warn_of_unconverged(&runs);
     expect_points(&pairs, &runs)?;
     warn_of_empty(&pairs, &runs);
     let figure = Figure {
@@ -97,6 +99,20 @@ fn expect_points(pairs: &[[String; 2]], runs: &[Table]) -> Result<(), Failure> {
         run.path.display(),
         with_numbers.join(", ")
     )))
+}
+
+/// Says which rows are left out, as the picture of a run leaves them out.
+fn warn_of_unconverged(runs: &[Table]) {
+    for run in runs {
+        let rows = run.converged.iter().enumerate();
+        for (index, _) in rows.filter(|(_, converged)| !**converged) {
+            warn(&format!(
+                "{}: the step of row {} did not converge, and is not drawn",
+                run.path.display(),
+                index + 1
+            ));
+        }
+    }
 }
 
 /// Says which runs are in the legend and without a curve.
@@ -156,6 +172,8 @@ struct Table {
     columns: Vec<Column>,
     /// In SI units.
     rows: Vec<Vec<Option<f64>>>,
+    /// Whether the step of each row converged; in a table that does not say so, all did.
+    converged: Vec<bool>,
 }
 
 impl Table {
@@ -182,15 +200,19 @@ impl Table {
                 .map(|value: f64| value * column.factor);
             value.filter(|value| value.is_finite())
         };
-        let rows = reader
-            .records()
-            .map(|row| row.map(|row: StringRecord| row.iter().zip(&columns).map(number).collect()))
-            .collect::<Result<Vec<Vec<_>>, csv::Error>>()
-            .map_err(unreadable)?;
+        let verdict = columns.iter().position(|column| column.name == CONVERGED);
+        let (mut rows, mut converged) = (Vec::new(), Vec::new());
+        for row in reader.records() {
+            let row = row.map_err(unreadable)?;
+            let verdict = verdict.and_then(|place| row.get(place));
+            converged.push(verdict.is_none_or(|word| word.trim() != "false"));
+            rows.push(row.iter().zip(&columns).map(number).collect());
+        }
         Ok(Table {
             path,
             columns,
             rows,
+            converged,
         })
     }
 
@@ -223,8 +245,12 @@ impl Table {
         let (Some(x), Some(y)) = (self.place(x), self.place(y)) else {
             return Vec::new();
         };
-        let point = |row: &Vec<Option<f64>>| Some([row[x]?, row[y]?]);
-        self.rows.iter().map(point).collect()
+        let rows = self.rows.iter().zip(&self.converged);
+        let point = |(row, converged): (&Vec<Option<f64>>, &bool)| {
+            converged.then_some(())?;
+            Some([row[x]?, row[y]?])
+        };
+        rows.map(point).collect()
     }
 }
 

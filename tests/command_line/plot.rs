@@ -241,6 +241,22 @@ fn units_of_heads_count_and_an_empty_picture_is_refused() {
     }
 }
 
+/// A step that did not converge is told and not drawn: it would stretch the axis to 900 N.
+fn steps_that_did_not_converge_are_left_out() {
+    let place = tempfile::tempdir().expect("a folder");
+    let path = place.path();
+    let curve = "approach,force,converged\n0,1,true\n1,2,true\n2,900,false\n";
+    fs::write(path.join("curve.csv"), curve).expect("written");
+    let call = ["plot", "curve.csv", "--x", "approach", "--y", "force"];
+    let output = tabor(path, &call);
+    assert_eq!(output.status.code(), Some(0));
+    let said = errors(&output);
+    assert!(said.contains("row 3 did not converge"), "{said}");
+    let svg = fs::read_to_string(path.join("plot.svg")).expect("a picture");
+    assert!(!svg.contains(">800<"), "{svg}");
+    assert_eq!(table(&path.join("plot.csv")).len(), 3);
+}
+
 /// Every file of a folder, with what is in it.
 fn walk(folder: &Path) -> Vec<(PathBuf, Vec<u8>)> {
     let entries = fs::read_dir(folder).expect("a folder");
@@ -261,4 +277,5 @@ tests![
     two_runs_make_one_picture,
     outputs_do_not_overwrite_what_is_read,
     units_of_heads_count_and_an_empty_picture_is_refused,
+    steps_that_did_not_converge_are_left_out,
 ];
