@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
+use csv::StringRecord;
 
 use super::{Failure, say, warn};
 use crate::fit::ColumnChoice;
@@ -48,7 +49,9 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
         .map(|path| Table::read(path))
         .collect::<Result<Vec<Table>, Failure>>()?;
     let pairs = match (&arguments.x, &arguments.y) {
-        (Some(x), Some(y)) => vec![[x, y].map(|column| Column::read(column).name)],
+        (Some(x), Some(y)) => {
+            vec![[x, y].map(|column| Column::read(column, &StringRecord::new()).name)]
+        }
         _ => usual(&runs),
     };
     for run in &runs {
@@ -139,11 +142,11 @@ struct Column {
 }
 
 impl Column {
-    /// Reads a head such as `approach [nm]`, as the columns of a force curve are read.
-    fn read(head: &str) -> Column {
+    /// Reads a head such as `approach [nm]`, as the columns of a force curve are read, of a table with these `heads`.
+    fn read(head: &str, heads: &StringRecord) -> Column {
         let plain = || Column {
             name: head.to_owned(),
-            unit: unit_of(head),
+            unit: unit_of(head, |name| heads.iter().any(|head| head.trim() == name)),
             factor: 1.0,
         };
         let Ok(ColumnChoice {
@@ -191,7 +194,10 @@ impl Table {
         let reader = reader.comment(Some(b'#')).from_path(&path);
         let mut reader = reader.map_err(unreadable)?;
         let head = reader.headers().map_err(unreadable)?;
-        let columns: Vec<Column> = head.iter().map(|head| Column::read(head.trim())).collect();
+        let columns: Vec<Column> = head
+            .iter()
+            .map(|one| Column::read(one.trim(), head))
+            .collect();
         let number = |(cell, column): (&str, &Column)| {
             let value = cell
                 .trim()

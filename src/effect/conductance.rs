@@ -16,12 +16,12 @@ use crate::units::format_si;
 /// What the contact conducts; empty where the surfaces are closed everywhere or the step did not converge.
 const CONDUCTANCE: Column = Column::new("conductance", "W/K", 2);
 /// The same of a current.
-const ELECTRICAL: Column = Column {
+pub(super) const ELECTRICAL: Column = Column {
     unit: "S",
     ..CONDUCTANCE
 };
 /// Resistance to a current; empty without contact too.
-const RESISTANCE: Column = Column::new("resistance", "ohm", 4);
+pub(super) const RESISTANCE: Column = Column::new("resistance", "ohm", 4);
 
 /// Conduction through the area in contact.
 pub(super) struct Conductance;

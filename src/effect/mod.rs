@@ -122,11 +122,18 @@ impl Effect {
         self.0.columns().iter().map(|column| column.name)
     }
 
-    /// The unit of a column of any effect; `None` where no effect has it.
+    /// The unit of a column of any effect in a table whose columns `is_there` knows; `None` where no effect has it.
     #[cfg(feature = "cli")]
-    pub(crate) fn unit_of_column(name: &str) -> Option<&'static str> {
-        let mut columns = Effect::ALL.iter().flat_map(|effect| effect.0.columns());
-        columns
+    pub(crate) fn unit_of_column(
+        name: &str,
+        is_there: impl Fn(&str) -> bool,
+    ) -> Option<&'static str> {
+        // Beside a resistance the conductance is that of a current.
+        let electrical = is_there(conductance::RESISTANCE.name).then_some(&conductance::ELECTRICAL);
+        let columns = Effect::ALL.iter().flat_map(|effect| effect.0.columns());
+        electrical
+            .into_iter()
+            .chain(columns)
             .find(|column| column.name == name)
             .map(|column| column.unit)
     }

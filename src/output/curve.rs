@@ -32,12 +32,12 @@ const UNITS: [(&str, &str); 11] = [
     ("seconds", "s"),
 ];
 
-/// The SI unit of a column, `%` for a share; empty where it has none.
+/// The SI unit of a column in a table whose columns `is_there` knows, `%` for a share; empty where it has none.
 #[cfg(feature = "cli")]
-pub(crate) fn unit_of(column: &str) -> &'static str {
+pub(crate) fn unit_of(column: &str, is_there: impl Fn(&str) -> bool) -> &'static str {
     let common = UNITS.iter().find(|(known, _)| *known == column);
     let unit = common.map(|(_, unit)| *unit);
-    unit.or_else(|| Effect::unit_of_column(column))
+    unit.or_else(|| Effect::unit_of_column(column, is_there))
         .unwrap_or_default()
 }
 

@@ -149,7 +149,8 @@ impl Table {
                     put(out, name, &values)?;
                 }
             }
-            describe(out, name, &name.replace('_', " "), curve::unit_of(name))?;
+            let unit = curve::unit_of(name, |other| self.head.iter().any(|head| head == other));
+            describe(out, name, &name.replace('_', " "), unit)?;
         }
         Ok(())
     }

@@ -241,6 +241,23 @@ fn units_of_heads_count_and_an_empty_picture_is_refused() {
     }
 }
 
+/// The conductance of a current, which has a resistance too, is in S; that for heat in W/K.
+fn a_conductance_has_the_unit_of_what_is_conducted() {
+    let place = tempfile::tempdir().expect("a folder");
+    let path = place.path();
+    for (head, row, unit) in [
+        ("approach,conductance", "1,2", ">W/K<"),
+        ("approach,conductance,resistance", "1,2,0.5", ">S<"),
+    ] {
+        fs::write(path.join("curve.csv"), format!("{head}\n{row}\n")).expect("written");
+        let call = ["plot", "curve.csv", "--x", "approach", "--y", "conductance"];
+        let output = tabor(path, &call);
+        assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+        let svg = fs::read_to_string(path.join("plot.svg")).expect("a picture");
+        assert!(svg.contains(unit), "{svg}");
+    }
+}
+
 /// A step that did not converge is told and not drawn: it would stretch the axis to 900 N.
 fn steps_that_did_not_converge_are_left_out() {
     let place = tempfile::tempdir().expect("a folder");
@@ -277,5 +294,6 @@ tests![
     two_runs_make_one_picture,
     outputs_do_not_overwrite_what_is_read,
     units_of_heads_count_and_an_empty_picture_is_refused,
+    a_conductance_has_the_unit_of_what_is_conducted,
     steps_that_did_not_converge_are_left_out,
 ];
