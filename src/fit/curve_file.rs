@@ -102,12 +102,13 @@ impl ForceCurve {
             .ok()
             .filter(|text| !text.contains('\0'))
             .ok_or_else(|| FitError::NotText { path: name(path) })?;
-        let mut lines = (1..)
-            .zip(text.lines())
-            .map(|(number, line)| (number, line.trim()))
-            .filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+        let mut lines = (1..).zip(text.lines()).filter(|(_, line)| {
+            let text = line.trim_start();
+            !text.is_empty() && !text.starts_with('#')
+        });
         let no_head = || FitError::NoHead { path: name(path) };
-        let (line, head) = lines.next().ok_or_else(no_head)?;
+        let (line, whole_head) = lines.next().ok_or_else(no_head)?;
+        let head = whole_head.trim();
         let separator = [';', '\t', ',']
             .into_iter()
             .find(|s| split(head, *s).len() > 1);
@@ -131,6 +132,8 @@ impl ForceCurve {
             separator
         };
         let names = match (has_head, separator) {
+            // Tables of pandas begin with a column without a name.
+            (true, '\t') => split(whole_head.trim_end(), separator),
             (true, _) => split(head, separator),
             // Empty names, so that no number is taken for the name of a column.
             (false, _) => vec![""; names.len()],
@@ -146,7 +149,14 @@ impl ForceCurve {
             ..ForceCurve::default()
         };
         for (line, text) in head_row.into_iter().chain(lines) {
-            let cells = split(text, separator);
+            let mut cells = split(text.trim(), separator);
+            if separator == '\t' && cells.len() < head.names.len() {
+                // Cells at the ends of the line are empty.
+                cells = split(text, separator);
+                while cells.len() > head.names.len() && cells.last() == Some(&"") {
+                    cells.pop();
+                }
+            }
             if cells.len() != head.names.len() {
                 return Err(FitError::Ragged {
                     path: name(path),
@@ -155,7 +165,7 @@ impl ForceCurve {
                     expected: head.names.len(),
                 });
             }
-            if converged.is_some_and(|at| cells[at] == "false") {
+            if converged.is_some_and(|at| cells[at].eq_ignore_ascii_case("false")) {
                 curve.unconverged.push(line);
                 continue;
             }
@@ -362,5 +372,48 @@ mod tests {
         assert_eq!(curve.incomplete, [2, 3]);
         assert_eq!(curve.unconverged, [4]);
         assert_eq!(curve.samples.len(), LEAST_ROWS);
+        // As pandas writes it.
+        let text = text.replace("false", "False");
+        let again = ForceCurve::parse(
+            text.as_bytes(),
+            Path::new("curve.csv"),
+            &CurveColumns::default(),
+        );
+        assert_eq!(again.unwrap(), curve);
+    }
+
+    /// Empty cells at the ends of a line of tabs are cells; a tab too many at its end is none.
+    #[test]
+    fn tabs_at_the_ends_of_a_line() {
+        let rows = "1\t2\t\n".repeat(LEAST_ROWS);
+        for (text, points, incomplete) in [
+            (format!("approach\tforce\tnote\n{rows}"), 10, vec![]),
+            (
+                format!("approach\tforce\t\n\t2\t\n{rows}3\t\t\n"),
+                10,
+                vec![2, 13],
+            ),
+            (
+                format!("approach\tforce\n\t2\n{rows}3\t\n"),
+                10,
+                vec![2, 13],
+            ),
+            (
+                format!("\tapproach\tforce\n0\t1\t2\n{}", "1\t1\t2\n".repeat(10)),
+                11,
+                vec![],
+            ),
+        ] {
+            // The same value in every row is no curve to fit.
+            let text = text.replacen("1\t2", "2\t3", 1);
+            let curve = ForceCurve::parse(
+                text.as_bytes(),
+                Path::new("curve.txt"),
+                &CurveColumns::default(),
+            )
+            .unwrap();
+            assert_eq!(curve.samples.len(), points, "{text:?}");
+            assert_eq!(curve.incomplete, incomplete, "{text:?}");
+        }
     }
 }
