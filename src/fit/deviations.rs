@@ -1,7 +1,5 @@
 //! Standard deviations and correlations of the numbers of a fit, from the covariance of its variables.
 
-use std::f64::consts::PI;
-
 use nalgebra::{DMatrix, DVector};
 
 use super::estimate::{Search, Variable};
@@ -167,12 +165,8 @@ pub(super) fn uncertainties(
         (ContactModulus, -2.0 * third),
     ]);
     let adhesive = model == Model::MaugisDugdale;
-    let peak = adhesive.then(|| {
-        let modulus = 4.0 * parameters.contact_modulus / 3.0;
-        let cube = PI * parameters.work_of_adhesion * modulus * modulus
-            / search.tip.indenter.radius().unwrap_or(f64::NAN);
-        0.5 * parameters.maugis_parameter * cube.cbrt()
-    });
+    let radius = search.tip.indenter.radius().unwrap_or(f64::NAN);
+    let peak = adhesive.then(|| parameters.peak_tension(radius));
     let reach = peak.map(|peak| parameters.work_of_adhesion / peak);
     Uncertainties {
         contact_modulus: scaled(alone(ContactModulus), Some(parameters.contact_modulus)),

@@ -1,7 +1,5 @@
 //! Fits one model to a curve: its numbers and their uncertainties.
 
-use std::f64::consts::PI;
-
 use nalgebra::DVector;
 
 use super::curve_file::Sample;
@@ -106,16 +104,7 @@ impl ModelFit {
 
     /// Tension of the cohesive zone, Pa; `None` but for Maugis-Dugdale.
     pub fn peak_tension(&self, radius: f64) -> Option<f64> {
-        (self.model == Model::MaugisDugdale).then(|| {
-            let Parameters {
-                contact_modulus,
-                work_of_adhesion,
-                maugis_parameter,
-                ..
-            } = self.parameters;
-            let modulus = 4.0 * contact_modulus / 3.0;
-            0.5 * maugis_parameter * (PI * work_of_adhesion * modulus * modulus / radius).cbrt()
-        })
+        (self.model == Model::MaugisDugdale).then(|| self.parameters.peak_tension(radius))
     }
 
     /// Whether lambda reached the limit of its range, so that only a bound is known.
@@ -383,7 +372,7 @@ pub(super) fn fit_model(measured: &Measured, model: Model) -> Option<ModelFit> {
     let (minimum, search) = best_of(first.collect(), &variables)?;
     let mut fit = fit_at(&search, &minimum);
     fit.profile = profile;
-    widen(&mut fit);
+    widen(&mut fit, measured.indenter.radius());
     Some(fit)
 }
 

@@ -1,6 +1,7 @@
 //! The models of an indenter that are fitted to a curve.
 
 use std::cell::RefCell;
+use std::f64::consts::PI;
 use std::rc::Rc;
 
 use super::indenter::{Indenter, adhesive_cone};
@@ -76,6 +77,13 @@ impl Parameters {
     /// Force where nothing acts, at an approach (m, as measured), N.
     pub fn baseline(&self, approach: f64) -> f64 {
         self.force_offset + self.baseline_slope * approach
+    }
+
+    /// Tension of the cohesive zone of a Maugis-Dugdale sphere, Pa.
+    pub(super) fn peak_tension(&self, radius: f64) -> f64 {
+        let modulus = 4.0 * self.contact_modulus / 3.0;
+        let cube = PI * self.work_of_adhesion * modulus * modulus / radius;
+        0.5 * self.maugis_parameter * cube.cbrt()
     }
 }
 

@@ -38,23 +38,29 @@ impl ProfilePoint {
 
 /// Takes the uncertainties from the profile over lambda if lambda is so uncertain that a parabola
 /// around the minimum is meaningless.
-pub(super) fn widen(fit: &mut ModelFit) {
+pub(super) fn widen(fit: &mut ModelFit, radius: Option<f64>) {
+    let radius = radius.unwrap_or(f64::NAN);
     let parameters = fit.parameters;
     let known = fit.uncertainties.maugis_parameter;
     let parabola = known.is_some_and(|known| known < FLAT_PROFILE * parameters.maugis_parameter);
     type Pick = fn(&mut Uncertainties) -> &mut Option<f64>;
-    type Value = fn(&Parameters) -> f64;
-    let numbers: [(Pick, Value); 4] = [
-        (|u| &mut u.work_of_adhesion, |p| p.work_of_adhesion),
-        (|u| &mut u.contact_modulus, |p| p.contact_modulus),
-        (|u| &mut u.maugis_parameter, |p| p.maugis_parameter),
-        (|u| &mut u.approach_offset, |p| p.approach_offset),
+    type Value = fn(&Parameters, f64) -> f64;
+    let numbers: [(Pick, Value); 6] = [
+        (|u| &mut u.work_of_adhesion, |p, _| p.work_of_adhesion),
+        (|u| &mut u.contact_modulus, |p, _| p.contact_modulus),
+        (|u| &mut u.maugis_parameter, |p, _| p.maugis_parameter),
+        (|u| &mut u.approach_offset, |p, _| p.approach_offset),
+        (
+            |u| &mut u.range,
+            |p, radius| p.work_of_adhesion / p.peak_tension(radius),
+        ),
+        (|u| &mut u.peak_tension, |p, radius| p.peak_tension(radius)),
     ];
     for (pick, value) in numbers {
         let spread = fit.profile.iter().filter_map(|point| {
             let rise = (point.sum_of_squares - fit.sum_of_squares) / fit.variance;
-            let own = |p: &Parameters, u: &Uncertainties| (value(p), *pick(&mut u.clone()));
-            point.deviation(value(&parameters), own, rise)
+            let own = |p: &Parameters, u: &Uncertainties| (value(p, radius), *pick(&mut u.clone()));
+            point.deviation(value(&parameters, radius), own, rise)
         });
         let Some(spread) = spread.reduce(f64::max) else {
             continue;
@@ -63,5 +69,80 @@ pub(super) fn widen(fit: &mut ModelFit) {
         // A number that does not affect the curve (a fixed offset, a lambda at its limit) is left
         // as it is.
         *deviation = deviation.map(|known| if parabola { known.max(spread) } else { spread });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::fit::estimate::fit_model;
+    use crate::fit::model::IndenterModel;
+    use crate::fit::{Freedom, Measured, Model, Sample};
+
+    use super::*;
+
+    /// At this noise nothing is known of lambda above 1, and no more of the tension. It was stated up to 67 deviations off.
+    #[test]
+    fn tension_and_range_are_as_uncertain_as_lambda() {
+        let radius = 1e-6;
+        let truth = Parameters {
+            contact_modulus: 1e7,
+            work_of_adhesion: 0.05,
+            maugis_parameter: 3.0,
+            ..Parameters::default()
+        };
+        let tip = IndenterModel::new(Model::MaugisDugdale, radius);
+        let (force_unit, unit) = tip.indenter.units(1e7, 0.05);
+        let fold = tip.fold(3.0).unwrap() * unit;
+        let mut state = 1_u64;
+        // The sum of twelve even numbers is nearly normal, with a variance of 1.
+        let mut normal = || {
+            let even = (0..12).map(|_| {
+                state = state
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                (state >> 11) as f64 / (1_u64 << 53) as f64
+            });
+            even.sum::<f64>() - 6.0
+        };
+        let samples = (0..120).map(|i| {
+            let approach = unit * (4.0 - (f64::from(i) - 59.5).abs() / 8.0);
+            let jump = if i < 60 { 0.0 } else { fold };
+            let force = if approach > jump {
+                tip.forces(&truth, &[approach]).unwrap()[0]
+            } else {
+                0.0
+            };
+            Sample {
+                approach,
+                force: force + 0.05 * force_unit * normal(),
+            }
+        });
+        let freedom = Freedom {
+            approach_offset: true,
+            force_offset: false,
+            baseline_slope: false,
+            range: None,
+        };
+        let measured = Measured::new(samples.collect(), radius, freedom);
+        let fit = fit_model(&measured, Model::MaugisDugdale).unwrap();
+        let tension = truth.peak_tension(radius);
+        for (found, true_value, deviation) in [
+            (
+                fit.peak_tension(radius),
+                tension,
+                fit.uncertainties.peak_tension,
+            ),
+            (
+                fit.range(radius),
+                truth.work_of_adhesion / tension,
+                fit.uncertainties.range,
+            ),
+        ] {
+            let (found, deviation) = (found.unwrap(), deviation.unwrap());
+            assert!(
+                (found - true_value).abs() < 3.0 * deviation,
+                "{found:e} +- {deviation:e}, {true_value:e}"
+            );
+        }
     }
 }
