@@ -37,7 +37,8 @@ impl Calibration {
         ]
     }
 
-    /// Adds the errors to the uncertainties of a result; a number that the curve does not determine stays so.
+    /// Adds the errors to the uncertainties of a result and of all its models; a number that the curve does not determine
+    /// stays so.
     pub fn widen(&self, result: &mut FitResult) {
         let best = result.best().parameters;
         let [work, modulus] = match result.measured.indenter.radius() {
@@ -49,9 +50,22 @@ impl Calibration {
         result.work_uncertainty = with(result.work_uncertainty, work * best.work_of_adhesion);
         result.modulus_uncertainty =
             with(result.modulus_uncertainty, modulus * best.contact_modulus);
-        let stated = &mut result.fits[result.chosen].uncertainties;
-        stated.contact_modulus = result.modulus_uncertainty;
-        stated.work_of_adhesion = stated.work_of_adhesion.and(result.work_uncertainty);
+        let radius = result.measured.indenter.radius().unwrap_or(f64::NAN);
+        for fit in &mut result.fits {
+            let (numbers, stated) = (fit.parameters, &mut fit.uncertainties);
+            stated.contact_modulus =
+                with(stated.contact_modulus, modulus * numbers.contact_modulus);
+            stated.work_of_adhesion =
+                with(stated.work_of_adhesion, work * numbers.work_of_adhesion);
+            // The tension goes with w, and the range, of the same curve, stays.
+            stated.peak_tension = with(stated.peak_tension, work * numbers.peak_tension(radius));
+        }
+        if let Some(solid) = &mut result.relaxation {
+            for (value, deviation) in [&mut solid.relaxed_modulus, &mut solid.instantaneous_modulus]
+            {
+                *deviation = deviation.hypot(modulus * *value);
+            }
+        }
         if let Some(found) = &mut result.inversion {
             found.work_uncertainty = found.work_uncertainty.hypot(work * found.work_of_adhesion);
             found.modulus_uncertainty = found

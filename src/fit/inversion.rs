@@ -224,7 +224,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
-    use crate::fit::{Calibration, ForceCurve, Freedom, Model, fit_curve};
+    use crate::fit::{Calibration, ForceCurve, Freedom, Model, Relaxation, fit_curve};
 
     const RADIUS: f64 = 10e-6;
     const SPAN: f64 = 3e-6;
@@ -366,6 +366,14 @@ mod tests {
         let sphere = Sphere::new(RADIUS, 5e6, 0.05).unwrap();
         let mut result = fitted(unloaded(&sphere, 0.005, 3));
         let before = result.inversion.unwrap();
+        let fits = result.fits.clone();
+        result.relaxation = Some(Relaxation {
+            relaxed_modulus: (1e6, 3e4),
+            instantaneous_modulus: (f64::NAN, f64::NAN),
+            time: (0.1, 0.01),
+            noise: 0.0,
+            points: 0,
+        });
         let calibration = Calibration::new(0.05, 0.1);
         calibration.widen(&mut result);
         let after = result.inversion.unwrap();
@@ -385,5 +393,33 @@ mod tests {
             approx::assert_relative_eq!(with, own.hypot(error), max_relative = 1e-12);
             assert!(with > 2.0 * own);
         }
+        // All models, and a solid that relaxes.
+        for (fit, before) in result.fits.iter().zip(&fits) {
+            let (numbers, own) = (fit.parameters, before.uncertainties);
+            for (with, own, error) in [
+                (
+                    fit.uncertainties.contact_modulus,
+                    own.contact_modulus,
+                    modulus * numbers.contact_modulus,
+                ),
+                (
+                    fit.uncertainties.work_of_adhesion,
+                    own.work_of_adhesion,
+                    work * numbers.work_of_adhesion,
+                ),
+                (
+                    fit.uncertainties.peak_tension,
+                    own.peak_tension,
+                    work * numbers.peak_tension(RADIUS),
+                ),
+            ] {
+                assert_eq!(with, own.map(|own| own.hypot(error)));
+            }
+        }
+        let solid = result.relaxation.unwrap();
+        let relaxed = (1e6, 3e4_f64.hypot(modulus * 1e6));
+        assert_eq!(solid.relaxed_modulus, relaxed);
+        assert!(solid.instantaneous_modulus.1.is_nan());
+        assert_eq!(solid.time, (0.1, 0.01));
     }
 }

@@ -51,10 +51,10 @@ impl FitRequest {
             range: self.range,
         };
         let mut result = fit_curve(curve, path, indenter, freedom)?;
-        Calibration::new(self.radius_error, self.spring_error).widen(&mut result);
         if self.relaxation {
             result.relaxation = Some(fit_relaxation(curve, path, &result)?);
         }
+        Calibration::new(self.radius_error, self.spring_error).widen(&mut result);
         if self.advise {
             result.advice = advise_curve(&result);
             if result.advice.is_none() {
