@@ -167,6 +167,9 @@ pub fn fit_curve(
     // If the tension grows up to the closest point there may be attraction without contact.
     let grows = measured.closest() - least.approach < CLOSEST * measured.approach_span;
     let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
+    if uncertain && measured.is_noise() {
+        return Err(FitError::NoContact { path: name(path) });
+    }
     if !pressed && (grows || uncertain) {
         return Err(FitError::NoCompression { path: name(path) });
     }
@@ -492,5 +495,83 @@ fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>)
                 100.0 * deviation / value
             ));
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fit::curve_file::Sample;
+
+    const RADIUS: f64 = 1e-6;
+    const AT_ZERO: Freedom = Freedom {
+        approach_offset: false,
+        force_offset: false,
+        baseline_slope: false,
+        range: None,
+    };
+
+    /// Loading and unloading of a sphere of 1 MPa without adhesion to a depth of 0.1 um, with noise in N, and more at each point.
+    fn sphere(points: u32, noise: f64, seed: u64, more: impl Fn(f64) -> f64) -> ForceCurve {
+        let mut state = seed;
+        // The sum of twelve even numbers is nearly normal, with a variance of 1.
+        let mut normal = || {
+            let even = (0..12).map(|_| {
+                state = state
+                    .wrapping_mul(6364136223846793005)
+                    .wrapping_add(1442695040888963407);
+                (state >> 11) as f64 / (1_u64 << 53) as f64
+            });
+            even.sum::<f64>() - 6.0
+        };
+        let samples = (0..points).map(|i| {
+            let place = (2.0 * f64::from(i) / f64::from(points - 1) - 1.0).abs();
+            let approach = 1e-7 * (1.0 - 2.0 * place);
+            let hertz = 4.0 / 3.0 * 1e6 * RADIUS.sqrt() * approach.max(0.0).powf(1.5);
+            Sample {
+                approach,
+                force: hertz + more(approach) + noise * normal(),
+            }
+        });
+        ForceCurve {
+            samples: samples.collect(),
+            ..ForceCurve::default()
+        }
+    }
+
+    /// The force of that sphere at its deepest point, N.
+    const DEEPEST: f64 = 4.216e-8;
+
+    fn fitted(curve: &ForceCurve, freedom: Freedom) -> Result<FitResult, FitError> {
+        fit_curve(curve, Path::new("made"), RADIUS, freedom)
+    }
+
+    /// A curve without contact had a modulus of 650 Pa, without a word, or was said to have wrong signs.
+    #[test]
+    fn noise_alone_is_no_contact() {
+        for seed in 0..4 {
+            let mut curve = sphere(60, 1.0, seed, |_| 0.0);
+            for sample in &mut curve.samples {
+                sample.force *= 1e-10;
+            }
+            let freedom = Freedom {
+                approach_offset: true,
+                force_offset: seed % 2 == 1,
+                ..AT_ZERO
+            };
+            let found = fitted(&curve, freedom);
+            let refused = matches!(found, Err(FitError::NoContact { .. }));
+            assert!(refused, "{seed}: {found:?}");
+        }
+    }
+
+    /// Many points with forces of up to 1.5 deviations determine the modulus, to 8 % by the sum of their squares; three times that.
+    #[test]
+    fn many_points_within_the_noise_are_a_contact() {
+        let curve = sphere(600, DEEPEST / 1.5, 1, |_| 0.0);
+        let found = fitted(&curve, AT_ZERO).unwrap();
+        assert!(found.measured.is_noise());
+        let modulus = found.best().parameters.contact_modulus;
+        assert!((modulus / 1e6 - 1.0).abs() < 0.23, "{modulus}");
     }
 }

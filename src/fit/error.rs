@@ -214,6 +214,14 @@ pub enum FitError {
         /// Points without force.
         points: usize,
     },
+    /// The forces are noise.
+    #[error(
+        "{path}: no force differs from the baseline by more than the noise, so that the curve shows no contact"
+    )]
+    NoContact {
+        /// The file.
+        path: String,
+    },
     /// No row is in compression.
     #[error(
         "{path}: no row is in compression (force > 0), so the modulus cannot be determined; force must be positive in compression, tension negative"

@@ -57,7 +57,9 @@ pub(super) fn check_signs(
         let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
         if least < best.aic - DECISIVE_AIC {
             let path = name(path);
-            return Err(if pressed {
+            return Err(if measured.is_noise() {
+                FitError::NoContact { path }
+            } else if pressed {
                 FitError::WrongWay { path }
             } else {
                 FitError::NoCompression { path }

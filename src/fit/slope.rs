@@ -212,7 +212,9 @@ mod tests {
             let found = fit_curve(&curve, Path::new("line"), RADIUS, freedom);
             let refused = matches!(
                 found,
-                Err(FitError::NoCompression { .. } | FitError::NoBaseline { .. })
+                Err(FitError::NoCompression { .. }
+                    | FitError::NoBaseline { .. }
+                    | FitError::NoContact { .. })
             );
             assert!(refused, "{noise}: {found:?}");
         }

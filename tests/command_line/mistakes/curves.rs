@@ -130,6 +130,14 @@ pub fn reached() -> Vec<Reached> {
             "no row is in compression",
         ),
         (
+            "NoContact",
+            rows(head, 40, |i| {
+                let noise = (i * i * 7 % 23) as f64 - 11.0;
+                format!("{i}e-9,{noise}e-12")
+            }),
+            "no force differs from the baseline by more than the noise",
+        ),
+        (
             "WrongWay",
             rows(head, 20, |i| format!("{i},{}", 100.0 - 10.0 * i as f64)),
             "the force grows as the surfaces separate",
