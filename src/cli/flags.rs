@@ -21,6 +21,10 @@ const OPTIONS: &[(&str, &str)] = &[
     ("resuming continues after", "--resume continues after"),
     ("give a longer budget", "give a longer --budget"),
     ("do not fit the baseline if", "leave --baseline out if"),
+    (
+        "w is that alone; fit the baseline",
+        "w is that alone; --baseline fits it",
+    ),
     ("or do not fit the slope", "or leave --baseline-slope out"),
     (
         "choose one of these, or a number from 1",

@@ -262,6 +262,27 @@ pub(super) fn misses(measured: &Measured, fit: &ModelFit) -> bool {
     fit.autocorrelation.abs() > MISFIT_CORRELATION + chance
 }
 
+/// A warning where DMT, whose attraction has no end, is in tension at most points beyond first touch: an offset of the
+/// force does the same.
+fn endless_tension(measured: &Measured, fit: &ModelFit) -> Option<String> {
+    if fit.model != Model::Dmt || measured.freedom.force_offset {
+        return None;
+    }
+    let touch = fit.parameters.approach_offset;
+    let apart = (0..measured.samples.len()).filter(|at| measured.approaches[*at] < touch);
+    let (pulled, free): (Vec<usize>, Vec<usize>) = apart.partition(|at| fit.interacting[*at]);
+    let farthest = pulled.iter().map(|at| touch - measured.approaches[*at]);
+    let farthest = farthest.fold(0.0, f64::max);
+    let tension = -fit.fitted[*pulled.first()?];
+    (pulled.len() >= ZERO_POINTS && pulled.len() > free.len()).then(|| {
+        format!(
+            "the tension of {} is the same as far as {} beyond first touch, where attraction has ended: if it is an offset of the force, w is that alone; fit the baseline",
+            format_si(tension, "N"),
+            format_si(farthest, "m"),
+        )
+    })
+}
+
 fn left_out(curve: &ForceCurve) -> Vec<String> {
     let mut warnings = Vec::new();
     for (lines, why) in [
@@ -446,6 +467,7 @@ fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>)
             ));
         }
     }
+    warnings.extend(endless_tension(measured, fit));
     if !fit.converged {
         warnings.push(format!(
             "the fit of {} did not converge; its numbers are the best found",
@@ -546,6 +568,13 @@ mod tests {
         fit_curve(curve, Path::new("made"), RADIUS, freedom)
     }
 
+    fn is_warned(result: &FitResult, words: &str) -> bool {
+        result
+            .warnings
+            .iter()
+            .any(|warning| warning.contains(words))
+    }
+
     /// A curve without contact had a modulus of 650 Pa, without a word, or was said to have wrong signs.
     #[test]
     fn noise_alone_is_no_contact() {
@@ -573,5 +602,23 @@ mod tests {
         assert!(found.measured.is_noise());
         let modulus = found.best().parameters.contact_modulus;
         assert!((modulus / 1e6 - 1.0).abs() < 0.23, "{modulus}");
+    }
+
+    /// An offset of the force is a DMT sphere whose attraction has no end. An attraction that ends at first touch is adhesion.
+    #[test]
+    fn a_tension_without_end_is_warned_of() {
+        let tension = 0.3 * DEEPEST;
+        let words = "the same as far as 100 nm";
+        let found = fitted(&sphere(120, 0.01 * DEEPEST, 1, |_| -tension), AT_ZERO).unwrap();
+        assert_eq!(found.best().model, Model::Dmt);
+        assert!(is_warned(&found, words), "{:?}", found.warnings);
+        let ends = |approach: f64| if approach < 0.0 { 0.0 } else { -tension };
+        let found = fitted(&sphere(120, 0.01 * DEEPEST, 1, ends), AT_ZERO).unwrap();
+        assert_eq!(found.best().model, Model::Dmt);
+        assert!(
+            !is_warned(&found, "the same as far as"),
+            "{:?}",
+            found.warnings
+        );
     }
 }
