@@ -33,6 +33,8 @@ const ZERO_POINTS: usize = 5;
 pub const MISFIT_CORRELATION: f64 = 0.3;
 /// Correlation of work of adhesion and modulus above which they cannot be separated.
 pub const INSEPARABLE_CORRELATION: f64 = 0.95;
+/// Share of the range of the forces to which a model is computed; below it are rounding and interpolation.
+const EXACT: f64 = 1e-7;
 /// Relative standard deviation from which a warning is given.
 pub const UNCERTAIN: f64 = 0.3;
 /// If the greatest tension lies within this share of the approach at its closest end, a curve
@@ -259,7 +261,8 @@ fn is_pressed(curve: &ForceCurve, measured: &Measured, fits: &[ModelFit]) -> boo
 /// Whether the residuals of a fit are correlated. They alternate where rows of extension and retraction are mixed.
 pub(super) fn misses(measured: &Measured, fit: &ModelFit) -> bool {
     let chance = 3.0 / (measured.samples.len() as f64).sqrt();
-    fit.autocorrelation.abs() > MISFIT_CORRELATION + chance
+    fit.noise > EXACT * measured.force_span
+        && fit.autocorrelation.abs() > MISFIT_CORRELATION + chance
 }
 
 /// A warning where DMT, whose attraction has no end, is in tension at most points beyond first touch: an offset of the
@@ -602,6 +605,15 @@ mod tests {
         assert!(found.measured.is_noise());
         let modulus = found.best().parameters.contact_modulus;
         assert!((modulus / 1e6 - 1.0).abs() < 0.23, "{modulus}");
+    }
+
+    /// Rounding is no misfit: an exact curve was one that no model describes.
+    #[test]
+    fn an_exact_curve_is_described() {
+        let found = fitted(&sphere(120, 0.0, 1, |_| 0.0), AT_ZERO).unwrap();
+        assert_eq!(found.best().model, Model::Hertz);
+        assert!(found.describes_curve, "{:?}", found.warnings);
+        assert_eq!(found.warnings, Vec::<String>::new());
     }
 
     /// An offset of the force is a DMT sphere whose attraction has no end. An attraction that ends at first touch is adhesion.
