@@ -35,6 +35,8 @@ pub const MISFIT_CORRELATION: f64 = 0.3;
 pub const INSEPARABLE_CORRELATION: f64 = 0.95;
 /// Share of the range of the forces to which a model is computed; below it are rounding and interpolation.
 const EXACT: f64 = 1e-7;
+/// A modulus, Pa, that no solid comes near to: diamond has 1e12.
+const TOO_STIFF: f64 = 1e13;
 /// Relative standard deviation from which a warning is given.
 pub const UNCERTAIN: f64 = 0.3;
 /// If the greatest tension lies within this share of the approach at its closest end, a curve
@@ -471,6 +473,12 @@ fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>)
         }
     }
     warnings.extend(endless_tension(measured, fit));
+    if fit.parameters.contact_modulus > TOO_STIFF {
+        warnings.push(format!(
+            "a contact modulus of {} is more than any solid has; if the force is not in N, name its unit in the header, as in force [nN]",
+            format_si(fit.parameters.contact_modulus, "Pa"),
+        ));
+    }
     if !fit.converged {
         warnings.push(format!(
             "the fit of {} did not converge; its numbers are the best found",
@@ -632,5 +640,17 @@ mod tests {
             "{:?}",
             found.warnings
         );
+    }
+
+    /// Numbers in nN, taken as N.
+    #[test]
+    fn a_force_in_another_unit_is_warned_of() {
+        let mut curve = sphere(60, 0.01 * DEEPEST, 1, |_| 0.0);
+        let words = "more than any solid has";
+        assert!(!is_warned(&fitted(&curve, AT_ZERO).unwrap(), words));
+        for sample in &mut curve.samples {
+            sample.force *= 1e9;
+        }
+        assert!(is_warned(&fitted(&curve, AT_ZERO).unwrap(), words));
     }
 }
