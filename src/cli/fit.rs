@@ -75,7 +75,7 @@ pub(super) struct FitArguments {
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), requires = "stiffness", requires = "radius", conflicts_with = "curve")]
     pull_off: Option<f64>,
     /// Slope of force by approach on the way apart
-    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "pull_off")]
+    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "pull_off", conflicts_with = "curve")]
     stiffness: Option<f64>,
     /// Force at which the stiffness was taken, positive in compression
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| quantity(text, Dimension::Force), default_value = "0", requires = "pull_off", allow_hyphen_values = true)]

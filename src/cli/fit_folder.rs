@@ -75,7 +75,7 @@ pub(super) fn fit_folder(arguments: &FitArguments, path: &Path, out: &Path) -> R
     }
     let quantities = quantities(&fitted);
     for quantity in &quantities {
-        say(&quantity.sentence());
+        say(&quantity.sentence(fitted.len()));
     }
     let panels = quantities.iter().map(Quantity::panel).collect();
     let picture = Figure {
@@ -194,12 +194,17 @@ impl Quantity {
         (1.0 - weight) * self.values[below] + weight * self.values[above]
     }
 
-    /// Median and quartiles in words.
-    fn sentence(&self) -> String {
+    /// Median and quartiles in words, of those of `curves` that have the number.
+    fn sentence(&self, curves: usize) -> String {
         let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| self.quantile(share));
         format!(
-            "{}: median {}, half of the curves from {} to {}",
+            "{}{}: median {}, half of the curves from {} to {}",
             self.name,
+            if self.values.len() < curves {
+                format!(" of {} of {curves} curves", self.values.len())
+            } else {
+                String::new()
+            },
             format_si(middle, self.unit),
             format_si(low, self.unit),
             format_si(high, self.unit)

@@ -201,7 +201,6 @@ fn the_model_is_that_of_the_tabor_number() {
     assert!((mu - 0.432).abs() < 0.01, "{mu}");
 }
 
-/// A force that is off everywhere is found where it is asked for.
 #[test]
 fn an_approach_in_another_unit_is_warned_of() {
     let warned = |unit: f64| {
@@ -219,6 +218,7 @@ fn an_approach_in_another_unit_is_warned_of() {
     assert!(warned(1e9));
 }
 
+/// A force that is off everywhere is found where it is asked for.
 #[test]
 fn a_baseline_is_found() {
     let mut samples = made(Model::Jkr, 1.0, 0.01, 5);
@@ -474,6 +474,17 @@ fn calls_that_are_wrong_say_so() {
             "cannot read none.csv",
         ),
         (vec!["fit", "curve.csv", "--radius", "1 um"], "1 rows"),
+        (
+            vec![
+                "fit",
+                "curve.csv",
+                "--radius",
+                "1 um",
+                "--stiffness",
+                "1 N/m",
+            ],
+            "cannot be used with",
+        ),
         (
             vec!["fit", "--radius", "1 um", "--pull-off", "1 nN"],
             "--stiffness",
