@@ -52,6 +52,10 @@ def test_columns_that_are_not_asked_for_may_hold_anything():
     texts = np.array(['dry, "cold"'] * 200, dtype=object)
     beside = {"note, or none": texts, "time": dates, "approach": approach, "force": force}
     assert tabor.fit(beside, radius="10 um").work_of_adhesion == plain
+    # Rows that began with # were left out as comments.
+    odd = np.array(["#1", "a;b\tc", "two\nlines", None] * 50, dtype=object)
+    for name in ("note; or none", "# note", "note\tor none", "two\nlines"):
+        assert tabor.fit({name: odd, "approach": approach, "force": force}, radius="10 um").work_of_adhesion == plain
     pandas = pytest.importorskip("pandas")
     assert tabor.fit(pandas.DataFrame(beside), radius="10 um").work_of_adhesion == plain
     with pytest.raises(tabor.FitError, match="time: real numbers are expected"):

@@ -256,8 +256,14 @@ def _curve(curve: Any, needs_time: bool) -> tuple[str, str | None]:
         shapes = ", ".join(f"{name} {array.shape}" for name, array in arrays.items())
         raise FitError(f"curve: columns of one length are expected, not {shapes}")
     text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(arrays)
+    # Texts in quotes may hold what separates columns, and begin as comments do.
+    writer = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC)
+    writer.writerow(_lines(list(arrays)))
     # Python's shortest text of a float reads back as the same number.
-    writer.writerows(zip(*(array.tolist() for array in arrays.values())))
-    return "curve", text.getvalue().replace("True", "true").replace("False", "false")
+    writer.writerows(zip(*(_lines(array.tolist()) if array.dtype.kind in "OU" else array.tolist() for array in arrays.values())))
+    return "curve", text.getvalue()
+
+
+def _lines(cells: list[Any]) -> list[Any]:
+    """Cells, each text of them in one line."""
+    return [" ".join(each.splitlines()) if isinstance(each, str) else each for each in cells]
