@@ -224,6 +224,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::fit::test_noise::normal;
     use crate::fit::{Calibration, ForceCurve, Freedom, Model, Relaxation, fit_curve};
 
     const RADIUS: f64 = 10e-6;
@@ -236,19 +237,7 @@ mod tests {
         // Let go at pull-off: the rest down to the fold is no matter here.
         let least = jkr::contact_radius(sphere, -(1.0 - 1e-9) * most);
         let fold = jkr::approach(sphere, least.unwrap());
-        let mut state = seed;
-        // The sum of twelve even numbers is nearly normal, with a variance of 1.
-        let mut normal = || {
-            (0..12)
-                .map(|_| {
-                    state = state
-                        .wrapping_mul(6364136223846793005)
-                        .wrapping_add(1442695040888963407);
-                    (state >> 11) as f64 / (1_u64 << 53) as f64
-                })
-                .sum::<f64>()
-                - 6.0
-        };
+        let mut normal = normal(seed);
         let at = |i: u32| 0.5 * SPAN - SPAN * f64::from(i) / 299.0;
         (0..300)
             .map(|i| {

@@ -40,6 +40,8 @@ mod segments;
 mod signs;
 mod slope;
 mod start;
+#[cfg(test)]
+mod test_noise;
 
 pub use calibration::Calibration;
 pub use choice::{FitResult, fit_curve};

@@ -123,6 +123,7 @@ fn line(samples: &[Sample]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fit::test_noise::normal;
 
     const RADIUS: f64 = 10e-6;
     const MODULUS: f64 = 1e6;
@@ -131,17 +132,7 @@ mod tests {
 
     /// A Hertz sphere that is free at one point in eight, on a tilted baseline, with noise in N.
     fn sphere(points: u32, noise: f64, seed: u64) -> ForceCurve {
-        let mut state = seed;
-        // The sum of twelve even numbers is nearly normal, with a variance of 1.
-        let mut normal = || {
-            let even = (0..12).map(|_| {
-                state = state
-                    .wrapping_mul(6364136223846793005)
-                    .wrapping_add(1442695040888963407);
-                (state >> 11) as f64 / (1_u64 << 53) as f64
-            });
-            even.sum::<f64>() - 6.0
-        };
+        let mut normal = normal(seed);
         let samples = (0..points).map(|i| {
             let approach = 2e-6 - 2.3e-6 * f64::from(i) / f64::from(points - 1);
             let hertz = 4.0 / 3.0 * MODULUS * RADIUS.sqrt() * approach.max(0.0).powf(1.5);
