@@ -62,7 +62,7 @@ pub struct FitResult {
     pub measured: Measured,
     /// Every fitted model, from the simplest.
     pub fits: Vec<ModelFit>,
-    /// The chosen one. Its uncertainties of w and E* are those of the result.
+    /// The chosen one. Its uncertainties of w, E* and first touch are those of the result.
     pub chosen: usize,
     /// Whether the chosen model describes the curve: its residuals look like noise.
     pub describes_curve: bool,
@@ -136,6 +136,7 @@ pub fn fit_curve(
     let (chosen, tabor_parameter) = choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
+    let touch: Number = |p, u| (p.approach_offset, u.approach_offset);
     // If the baseline is fitted but not measured, tension may be an offset.
     let zero_known = knows_zero(&measured, &fits[chosen]);
     let baseline_slope = if freedom.baseline_slope {
@@ -156,6 +157,8 @@ pub fn fit_curve(
     }
     let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
     let (work_uncertainty, modulus_uncertainty) = (stated(work), stated(modulus));
+    let touch_uncertainty = stated(touch);
+    fits[chosen].uncertainties.approach_offset = touch_uncertainty;
     fits[chosen].uncertainties.contact_modulus = modulus_uncertainty;
     if fits[chosen].model.adheres() {
         fits[chosen].uncertainties.work_of_adhesion = work_uncertainty;
@@ -535,6 +538,7 @@ fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>)
 mod tests {
     use super::*;
     use crate::fit::curve_file::Sample;
+    use crate::fit::test_noise::normal;
 
     const RADIUS: f64 = 1e-6;
     const AT_ZERO: Freedom = Freedom {
@@ -546,17 +550,7 @@ mod tests {
 
     /// Loading and unloading of a sphere of 1 MPa without adhesion to a depth of 0.1 um, with noise in N, and more at each point.
     fn sphere(points: u32, noise: f64, seed: u64, more: impl Fn(f64) -> f64) -> ForceCurve {
-        let mut state = seed;
-        // The sum of twelve even numbers is nearly normal, with a variance of 1.
-        let mut normal = || {
-            let even = (0..12).map(|_| {
-                state = state
-                    .wrapping_mul(6364136223846793005)
-                    .wrapping_add(1442695040888963407);
-                (state >> 11) as f64 / (1_u64 << 53) as f64
-            });
-            even.sum::<f64>() - 6.0
-        };
+        let mut normal = normal(seed);
         let samples = (0..points).map(|i| {
             let place = (2.0 * f64::from(i) / f64::from(points - 1) - 1.0).abs();
             let approach = 1e-7 * (1.0 - 2.0 * place);

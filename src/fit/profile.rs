@@ -74,66 +74,70 @@ pub(super) fn widen(fit: &mut ModelFit, radius: Option<f64>) {
 
 #[cfg(test)]
 mod tests {
-    use crate::fit::estimate::fit_model;
-    use crate::fit::model::IndenterModel;
-    use crate::fit::{Freedom, Measured, Model, Sample};
+    use std::path::Path;
 
     use super::*;
+    use crate::fit::estimate::fit_model;
+    use crate::fit::model::IndenterModel;
+    use crate::fit::test_noise::normal;
+    use crate::fit::{ForceCurve, Freedom, Measured, Model, Sample, fit_curve};
 
-    /// At this noise nothing is known of lambda above 1, and no more of the tension. It was stated up to 67 deviations off.
-    #[test]
-    fn tension_and_range_are_as_uncertain_as_lambda() {
-        let radius = 1e-6;
-        let truth = Parameters {
+    const RADIUS: f64 = 1e-6;
+    const FREE: Freedom = Freedom {
+        approach_offset: true,
+        force_offset: false,
+        baseline_slope: false,
+        range: None,
+    };
+
+    fn sphere(lambda: f64) -> Parameters {
+        Parameters {
             contact_modulus: 1e7,
             work_of_adhesion: 0.05,
-            maugis_parameter: 3.0,
+            maugis_parameter: lambda,
             ..Parameters::default()
-        };
-        let tip = IndenterModel::new(Model::MaugisDugdale, radius);
-        let (force_unit, unit) = tip.indenter.units(1e7, 0.05);
-        let fold = tip.fold(3.0).unwrap() * unit;
-        let mut state = 1_u64;
-        // The sum of twelve even numbers is nearly normal, with a variance of 1.
-        let mut normal = || {
-            let even = (0..12).map(|_| {
-                state = state
-                    .wrapping_mul(6364136223846793005)
-                    .wrapping_add(1442695040888963407);
-                (state >> 11) as f64 / (1_u64 << 53) as f64
-            });
-            even.sum::<f64>() - 6.0
-        };
+        }
+    }
+
+    /// Loading and unloading of a Maugis-Dugdale sphere, with noise of a share of `pi w R`.
+    fn made(truth: &Parameters, noise: f64) -> Vec<Sample> {
+        let tip = IndenterModel::new(Model::MaugisDugdale, RADIUS);
+        let (force_unit, unit) = tip
+            .indenter
+            .units(truth.contact_modulus, truth.work_of_adhesion);
+        let fold = tip.fold(truth.maugis_parameter).unwrap() * unit;
+        let mut normal = normal(1);
         let samples = (0..120).map(|i| {
             let approach = unit * (4.0 - (f64::from(i) - 59.5).abs() / 8.0);
             let jump = if i < 60 { 0.0 } else { fold };
             let force = if approach > jump {
-                tip.forces(&truth, &[approach]).unwrap()[0]
+                tip.forces(truth, &[approach]).unwrap()[0]
             } else {
                 0.0
             };
             Sample {
                 approach,
-                force: force + 0.05 * force_unit * normal(),
+                force: force + noise * force_unit * normal(),
             }
         });
-        let freedom = Freedom {
-            approach_offset: true,
-            force_offset: false,
-            baseline_slope: false,
-            range: None,
-        };
-        let measured = Measured::new(samples.collect(), radius, freedom);
+        samples.collect()
+    }
+
+    /// At this noise nothing is known of lambda above 1, and no more of the tension. It was stated up to 67 deviations off.
+    #[test]
+    fn tension_and_range_are_as_uncertain_as_lambda() {
+        let truth = sphere(3.0);
+        let measured = Measured::new(made(&truth, 0.05), RADIUS, FREE);
         let fit = fit_model(&measured, Model::MaugisDugdale).unwrap();
-        let tension = truth.peak_tension(radius);
+        let tension = truth.peak_tension(RADIUS);
         for (found, true_value, deviation) in [
             (
-                fit.peak_tension(radius),
+                fit.peak_tension(RADIUS),
                 tension,
                 fit.uncertainties.peak_tension,
             ),
             (
-                fit.range(radius),
+                fit.range(RADIUS),
                 truth.work_of_adhesion / tension,
                 fit.uncertainties.range,
             ),
@@ -144,5 +148,20 @@ mod tests {
                 "{found:e} +- {deviation:e}, {true_value:e}"
             );
         }
+    }
+
+    /// JKR is chosen of a curve that does not rule out others, which touch first elsewhere: its own deviation is a tenth of the error.
+    #[test]
+    fn first_touch_is_as_uncertain_as_the_model() {
+        let curve = ForceCurve {
+            samples: made(&sphere(1.5), 0.02),
+            ..ForceCurve::default()
+        };
+        let found = fit_curve(&curve, Path::new("made"), RADIUS, FREE).unwrap();
+        let best = found.best();
+        assert_eq!(best.model, Model::Jkr);
+        let deviation = best.uncertainties.approach_offset.unwrap();
+        let touch = best.parameters.approach_offset;
+        assert!(touch.abs() < 3.0 * deviation, "{touch:e} {deviation:e}");
     }
 }
