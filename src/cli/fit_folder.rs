@@ -197,14 +197,15 @@ impl Quantity {
     /// Median and quartiles in words, of those of `curves` that have the number.
     fn sentence(&self, curves: usize) -> String {
         let [low, middle, high] = [0.25, 0.5, 0.75].map(|share| self.quantile(share));
+        let count = self.values.len();
+        let (of, these) = if count < curves {
+            (format!(" of {count} of {curves} curves"), "these")
+        } else {
+            (String::new(), "the curves")
+        };
         format!(
-            "{}{}: median {}, half of the curves from {} to {}",
+            "{}{of}: median {}, half of {these} from {} to {}",
             self.name,
-            if self.values.len() < curves {
-                format!(" of {} of {curves} curves", self.values.len())
-            } else {
-                String::new()
-            },
             format_si(middle, self.unit),
             format_si(low, self.unit),
             format_si(high, self.unit)
