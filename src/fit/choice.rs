@@ -6,7 +6,7 @@ use super::advice::Advice;
 use super::curve_file::{ForceCurve, name};
 use super::deviations::Uncertainties;
 use super::error::FitError;
-use super::estimate::{ModelFit, fit_model};
+use super::estimate::{ModelFit, aic_of_baseline, fit_model};
 use super::hysteresis;
 use super::indenter::Indenter;
 use super::inversion::{Inversion, invert_curve};
@@ -26,6 +26,9 @@ use crate::units::format_si;
 /// Difference of Akaike's criterion from which one model is preferred: it is then `exp(6/2) = 20`
 /// times as likely.
 pub const DECISIVE_AIC: f64 = 6.0;
+/// Difference of Akaike's criterion from which a curve shows a contact. Noise alone gains up to 17, in one of a hundred curves 24, by
+/// places of first touch and of jumps that suit it.
+pub(super) const CONTACT_AIC: f64 = 20.0;
 /// Fewest points without force that determine a fitted baseline.
 const ZERO_POINTS: usize = 5;
 /// Correlation of neighbouring residuals above which, of either sign, a model misses the curve, in addition to the
@@ -132,6 +135,8 @@ pub fn fit_curve(
         .filter_map(|model| fit_model(&measured, *model))
         .collect();
     check_signs(&measured, &fits, path)?;
+    let least_aic = fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
+    let shows_contact = aic_of_baseline(&measured) - least_aic > CONTACT_AIC;
     let mut warnings = left_out(curve);
     let (chosen, tabor_parameter) = choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
@@ -174,7 +179,7 @@ pub fn fit_curve(
     // If the tension grows up to the closest point there may be attraction without contact.
     let grows = measured.closest() - least.approach < CLOSEST * measured.approach_span;
     let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
-    if uncertain && measured.is_noise() {
+    if uncertain && !shows_contact {
         return Err(FitError::NoContact { path: name(path) });
     }
     if !pressed && (grows || uncertain) {
@@ -599,14 +604,19 @@ mod tests {
         }
     }
 
-    /// Many points with forces of up to 1.5 deviations determine the modulus, to 8 % by the sum of their squares; three times that.
+    /// Many points show a contact that no single one does: 130 in contact, the deepest at 3 deviations.
     #[test]
-    fn many_points_within_the_noise_are_a_contact() {
-        let curve = sphere(600, DEEPEST / 1.5, 1, |_| 0.0);
-        let found = fitted(&curve, AT_ZERO).unwrap();
-        assert!(found.measured.is_noise());
-        let modulus = found.best().parameters.contact_modulus;
-        assert!((modulus / 1e6 - 1.0).abs() < 0.23, "{modulus}");
+    fn a_weak_contact_is_a_contact() {
+        let freedom = Freedom {
+            approach_offset: true,
+            ..AT_ZERO
+        };
+        let found = fitted(&sphere(200, DEEPEST / 3.0, 1, |_| 0.0), freedom).unwrap();
+        let (value, deviation) = (
+            found.best().parameters.contact_modulus,
+            found.modulus_uncertainty.unwrap(),
+        );
+        assert!((value - 1e6).abs() < 3.0 * deviation, "{value} {deviation}");
     }
 
     /// Rounding is no misfit: an exact curve was one that no model describes.

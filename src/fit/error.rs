@@ -215,9 +215,7 @@ pub enum FitError {
         points: usize,
     },
     /// The forces are noise.
-    #[error(
-        "{path}: no force differs from the baseline by more than the noise, so that the curve shows no contact"
-    )]
+    #[error("{path}: the forces are noise about the baseline, so that the curve shows no contact")]
     NoContact {
         /// The file.
         path: String,

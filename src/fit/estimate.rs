@@ -405,6 +405,25 @@ fn best_of_grid(
     fit_at.into_iter().map(|(_, start)| start).collect()
 }
 
+/// Akaike's criterion of a sum of squares over those of the force range. The noise is a fitted number too.
+fn aic(sum: f64, points: usize, free: usize) -> f64 {
+    points as f64 * (sum / points as f64).ln() + 2.0 * (free + 1) as f64
+}
+
+/// The same where no contact is: of a level baseline alone.
+pub(super) fn aic_of_baseline(measured: &Measured) -> f64 {
+    let points = measured.samples.len();
+    let has_offset = measured.freedom.force_offset;
+    let forces = || measured.samples.iter().map(|sample| sample.force);
+    let level = if has_offset {
+        forces().sum::<f64>() / points as f64
+    } else {
+        0.0
+    };
+    let over_span = |force: f64| ((force - level) / measured.force_span).powi(2);
+    aic(forces().map(over_span).sum(), points, has_offset.into())
+}
+
 /// Numbers and their uncertainties at a minimum.
 fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let measured = search.measured;
@@ -442,8 +461,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         sum_of_squares: sum * span * span,
         degrees_of_freedom: degrees,
         free,
-        // The noise is a fitted number too.
-        aic: points as f64 * (floor / points as f64).ln() + 2.0 * (free + 1) as f64,
+        aic: aic(floor, points, free),
         noise: (sum / degrees as f64).sqrt() * span,
         autocorrelation,
         fitted,

@@ -8,10 +8,6 @@ use super::segments::{Segment, segments};
 const HOLD_SHARE: f64 = 0.05;
 const LEAST_HELD: usize = 5;
 const HOLD_BAND: f64 = 0.01;
-/// Deviations of the noise that a force of contact exceeds: of 100 000 points of noise alone none does, as a rule.
-const BEYOND_NOISE: f64 = 5.0;
-/// Median of the magnitude of a normal number of deviation 1.
-const MEDIAN_MAGNITUDE: f64 = 0.674_489_750_196_081_7;
 
 /// Numbers that are fitted in addition to those of the model.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -145,26 +141,6 @@ impl Measured {
         far.truncate((far.len() / 10).max(1));
         far.sort_by(|a, b| a.force.total_cmp(&b.force));
         far[far.len() / 2].force
-    }
-
-    /// Standard deviation of the noise of the force, N, from the median of the second differences, which jumps do not reach.
-    pub(super) fn noise(&self) -> f64 {
-        let mut seconds: Vec<f64> = self
-            .samples
-            .windows(3)
-            .map(|three| (three[0].force - 2.0 * three[1].force + three[2].force).abs())
-            .collect();
-        seconds.sort_by(f64::total_cmp);
-        let median = seconds.get(seconds.len() / 2).copied().unwrap_or(0.0);
-        median / (MEDIAN_MAGNITUDE * 6.0_f64.sqrt())
-    }
-
-    /// Whether no force differs from the baseline by more than noise.
-    pub(super) fn is_noise(&self) -> bool {
-        let (least, greatest) = self.extremes();
-        let zero = self.baseline();
-        let most = (greatest.force - zero).max(zero - least.force);
-        most <= BEYOND_NOISE * self.noise()
     }
 
     /// The points of least and greatest force.

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use super::choice::{DECISIVE_AIC, misses};
+use super::choice::{CONTACT_AIC, DECISIVE_AIC, misses};
 use super::curve_file::{LEAST_ROWS, name};
 use super::error::FitError;
-use super::estimate::{ModelFit, fit_model};
+use super::estimate::{ModelFit, aic_of_baseline, fit_model};
 use super::measured::{Measured, ReversedSigns};
 use super::model::Model;
 
@@ -57,7 +57,7 @@ pub(super) fn check_signs(
         let least = fitted.map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
         if least < best.aic - DECISIVE_AIC {
             let path = name(path);
-            return Err(if measured.is_noise() {
+            return Err(if aic_of_baseline(&moving) - least < CONTACT_AIC {
                 FitError::NoContact { path }
             } else if pressed {
                 FitError::WrongWay { path }

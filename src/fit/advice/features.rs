@@ -3,6 +3,7 @@
 use std::f64::consts::PI;
 
 use super::super::choice::{DECISIVE_AIC, FitResult};
+use super::super::curve_file::Sample;
 use super::super::estimate::ModelFit;
 use super::super::measured::Measured;
 use super::super::model::Model;
@@ -69,7 +70,7 @@ pub fn features(result: &FitResult) -> Option<[Option<f64>; CURVE_FEATURES.len()
     let (hertz, dmt) = (fit(Model::Hertz)?, fit(Model::Dmt)?);
     let (jkr, general) = (fit(Model::Jkr)?, fit(Model::MaugisDugdale)?);
     let zero = general.parameters.force_offset;
-    let noise = measured.noise().max(1e-6 * measured.force_span);
+    let noise = noise(&measured.samples).max(1e-6 * measured.force_span);
     let load = measured.extremes().1.force - zero;
     let tension_of = |loading: bool| greatest_tension(measured, loading, zero);
     let (inwards, outwards) = (tension_of(true), tension_of(false));
@@ -127,6 +128,19 @@ fn log(value: f64, of: f64) -> Option<f64> {
 
 fn cut(value: f64) -> Option<f64> {
     value.is_finite().then(|| value.clamp(-MOST, MOST))
+}
+
+/// Standard deviation of the noise, from the median of the second differences, which jumps do not reach.
+fn noise(samples: &[Sample]) -> f64 {
+    /// Median of the magnitude of a normal number of deviation 1.
+    const MEDIAN_MAGNITUDE: f64 = 0.674_489_750_196_081_7;
+    let mut seconds: Vec<f64> = samples
+        .windows(3)
+        .map(|three| (three[0].force - 2.0 * three[1].force + three[2].force).abs())
+        .collect();
+    seconds.sort_by(f64::total_cmp);
+    let median = seconds.get(seconds.len() / 2).copied().unwrap_or(0.0);
+    median / (MEDIAN_MAGNITUDE * 6.0_f64.sqrt())
 }
 
 /// Greatest tension of one direction, from running medians; `None` if the curve lacks that direction.

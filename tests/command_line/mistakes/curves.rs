@@ -135,7 +135,7 @@ pub fn reached() -> Vec<Reached> {
                 let noise = (i * i * 7 % 23) as f64 - 11.0;
                 format!("{i}e-9,{noise}e-12")
             }),
-            "no force differs from the baseline by more than the noise",
+            "the forces are noise about the baseline",
         ),
         (
             "WrongWay",
