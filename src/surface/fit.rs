@@ -148,10 +148,12 @@ pub fn fit(
     }
     if let Some(end) = end {
         // Over the rings of the cut-off the first is full and the last is empty.
+        let full = rings[end].wavenumber;
         let last = rings[(end + END_RINGS).min(rings.len() - 1)].wavenumber;
-        let guess = (rings[end].wavenumber * last).sqrt();
         let fine = fine_spectrum(grid, heights, boundary);
-        spectrum.short = refined_cutoff(&spectrum, &fine, first, guess).min(held);
+        let refined = refined_cutoff(&spectrum, &fine, first, (full * last).sqrt());
+        // A band of a few waves has too few full rings to refine by.
+        spectrum.short = refined.clamp(full, last).min(held);
     }
     let squares: f64 = compared
         .iter()

@@ -91,6 +91,25 @@ fn a_patch_of_a_larger_surface_gives_its_parameters() {
 }
 
 #[test]
+fn the_cutoff_of_a_few_waves_lies_in_the_band() {
+    // Eight waves across the surface are four across a patch of a quarter of it, fewer than the cut-off is refined by.
+    // The rings about the cut-off bound it: they are 12 % wide each, and a window smears it over two waves of four.
+    for seed in 1..=8 {
+        let asked = spectrum(0.8, 1.0, 8.0, 2e-6);
+        let whole = Grid::new([64, 64], [2e-6, 2e-6]);
+        let heights = self_affine::heights(&asked, &whole, seed);
+        let patch: Vec<f64> = (0..32)
+            .flat_map(|row| heights[row * 64..row * 64 + 32].iter().copied())
+            .collect();
+        let grid = Grid::new([32, 32], [1e-6, 1e-6]);
+        let found = fit(&grid, &patch, Boundary::Free).unwrap();
+        let case = format!("{asked:?} {found:?}");
+        assert!(found.spectrum.short > found.spectrum.rolloff, "{case}");
+        assert!(relative(found.spectrum.short, asked.short) < 0.6, "{case}");
+    }
+}
+
+#[test]
 fn missing_rolloff_and_cutoff_are_reported() {
     let asked = spectrum(0.7, 1.0, 127.0, 1e-6);
     let grid = Grid::new([256, 256], [1e-6, 1e-6]);
