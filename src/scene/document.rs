@@ -125,7 +125,7 @@ pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
             syntax(&error),
         )
     })?;
-    Ok(table(document.as_table(), &|offset| {
+    Ok(table(document.as_table(), Location::Nowhere, &|offset| {
         Location::Line(lines.line(offset))
     }))
 }
@@ -175,15 +175,15 @@ impl Lines {
     }
 }
 
-/// A TOML table; `at` turns an offset into a location. The parser bounds the depth, so recursion is
-/// safe.
-fn table(from: &dyn toml::TableLike, at: &dyn Fn(usize) -> Location) -> Table {
+/// A TOML table; `at` turns an offset into a location, and `parent` is that of entries without an offset, as
+/// the inline tables of a `--set` have them. The parser bounds the depth, so recursion is safe.
+fn table(from: &dyn toml::TableLike, parent: Location, at: &dyn Fn(usize) -> Location) -> Table {
     let entries = from
         .iter()
         .filter_map(|(name, item)| {
             let key_span = from.get_key_value(name).and_then(|(key, _)| key.span());
             let span = key_span.or_else(|| item.span());
-            let place = span.map_or(Location::Nowhere, |span| at(span.start));
+            let place = span.map_or(parent, |span| at(span.start));
             Some(Entry {
                 name: name.into(),
                 place,
@@ -200,12 +200,12 @@ fn item_node(item: &toml::Item, parent: Location, at: &dyn Fn(usize) -> Location
         toml::Item::None => None,
         toml::Item::Value(found) => Some(value(found, parent, at)),
         toml::Item::Table(found) => Some(Node {
-            value: Value::Table(table(found, at)),
+            value: Value::Table(table(found, place, at)),
             place,
         }),
         toml::Item::ArrayOfTables(found) => {
             let parts = found.iter().map(|part| Node {
-                value: Value::Table(table(part, at)),
+                value: Value::Table(table(part, place, at)),
                 place: part.span().map_or(place, |span| at(span.start)),
             });
             Some(Node {
@@ -227,7 +227,7 @@ fn value(from: &toml::Value, parent: Location, at: &dyn Fn(usize) -> Location) -
         toml::Value::Array(list) => {
             Value::List(list.iter().map(|entry| value(entry, place, at)).collect())
         }
-        toml::Value::InlineTable(found) => Value::Table(table(found, at)),
+        toml::Value::InlineTable(found) => Value::Table(table(found, place, at)),
     };
     Node { value, place }
 }

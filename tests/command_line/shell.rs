@@ -623,6 +623,8 @@ fn values_of_set_arrive_as_they_are_written() {
         ("grid.points=[32, ]]", "from --set: grid.points: not valid TOML"),
         ("grid.size=\"2 um", "from --set: grid.size: not valid TOML"),
         ("grid.size=1979-05-27", "from --set: grid.size: the date 1979-05-27 where a length in m is expected"),
+        ("adhesion={ law = 'jkr', work_of_adhesion = 0.05, range = 1e-8 }", "scene.toml, from --set: adhesion.law: \"jkr\" is not one of"),
+        ("surface=[{ kind = 'wavy', amplitude = '1 N', wavelength = 1e-6 }]", "scene.toml, from --set: surface.0.amplitude: \"N\" is a force"),
         ("surface=flat", "from --set: surface: the text \"flat\" where an array of tables is expected"),
         ("surface.0=flat", "the text \"flat\" where a table is expected"),
         ("loading.path=1 MPa, 2 MPa", "from --set: loading.path: the text \"1 MPa, 2 MPa\" where a list of values is expected"),
