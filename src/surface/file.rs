@@ -236,6 +236,14 @@ pub(super) fn heights_of(
         }
     }
 
+    if matrix.grey && scene.unit != 1.0 {
+        warnings.push(format!(
+            "unit = {:e} m does nothing for a grey image, whose heights run from black = {:e} m to white = {:e} m",
+            scene.unit,
+            zero,
+            zero + factor
+        ));
+    }
     if unit != scene.unit && scene.unit != 1.0 {
         warnings.push(format!(
             "the file says that its numbers are in units of {unit:e} m, which is used in place of unit = {:e} m",

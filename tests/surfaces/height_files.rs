@@ -255,6 +255,13 @@ fn grey_images_in_a_scene_take_black_and_white() {
     ] {
         assert!(text.contains(line), "{line}: {text}");
     }
+    // Bare numbers of black and white are in m, whatever the unit.
+    assert!(errors(&output).is_empty(), "{}", errors(&output));
+    let with_unit = scene.replace("white = 30e-9", "white = 30\nunit = \"nm\"");
+    fs::write(folder.path().join("scene.toml"), with_unit).unwrap();
+    let output = tabor(folder.path(), &["surface", "scene.toml"]);
+    let warning = "unit = 1e-9 m does nothing for a grey image, whose heights run from black = -1e-8 m to white = 3e1 m";
+    assert!(errors(&output).contains(warning), "{}", errors(&output));
 }
 
 /// The surface of a file of these bytes, missing heights filled, on its own grid.
