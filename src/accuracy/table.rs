@@ -256,6 +256,25 @@ fn sound(errors: &Errors, of: Quantity, level: f64) -> Option<f64> {
     of(errors).filter(|_| largest <= OTHERS * level)
 }
 
+/// Why no setting is known to reach a level, by the least error and the uncertainty of the reference.
+fn missed(best: f64, uncertainty: f64, level: f64) -> String {
+    let [best_words, accurate] = [best, uncertainty].map(|error| percent(Some(error)));
+    if uncertainty > level {
+        format!(
+            "unknown: the reference itself is accurate only to {accurate}; a longer budget gives a better one"
+        )
+    } else if best + uncertainty <= level {
+        let most = percent(Some(OTHERS * level));
+        format!("none: those that reached it are off by more than {most} in another quantity")
+    } else if best <= level {
+        format!(
+            "unknown: the least error is {best_words}, and the reference itself is accurate only to {accurate}"
+        )
+    } else {
+        format!("none reached it; the least error is {best_words}")
+    }
+}
+
 /// The cheapest setting for a level, or a note that none reached it; `None` without errors.
 fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
     let least =
@@ -272,18 +291,7 @@ fn cheapest(report: &Report, of: Quantity, level: f64) -> Option<String> {
                 duration(row.measured.seconds)
             )
         }
-        None if uncertainty > level => format!(
-            "unknown: the reference itself is accurate only to {}; a longer budget gives a better one",
-            percent(Some(uncertainty))
-        ),
-        None if best + uncertainty <= level => format!(
-            "none: those that reached it are off by more than {} in another quantity",
-            percent(Some(OTHERS * level))
-        ),
-        None => format!(
-            "none reached it; the least error is {}",
-            percent(Some(best))
-        ),
+        None => missed(best, uncertainty, level),
     })
 }
 
@@ -302,6 +310,32 @@ mod tests {
         assert_eq!(sound(&errors(0.11), |e| e.area, 0.01), None);
         assert_eq!(sound(&errors(0.11), |e| e.area, 0.1), Some(0.005));
         assert_eq!(sound(&errors(0.11), |e| e.force, 0.1), None);
+    }
+
+    #[test]
+    fn a_level_that_is_missed_is_explained_without_contradiction() {
+        for (best, uncertainty, words) in [
+            (0.0012, 0.0001, "none reached it; the least error is 0.12 %"),
+            (
+                0.0005,
+                0.002,
+                "unknown: the reference itself is accurate only to 0.20 %",
+            ),
+            // Below the level, but not with what the reference may be wrong by.
+            (
+                0.00097,
+                0.00024,
+                "unknown: the least error is 0.097 %, and the reference itself is accurate only to 0.024 %",
+            ),
+            (
+                0.0005,
+                0.0001,
+                "none: those that reached it are off by more than 1.0 %",
+            ),
+        ] {
+            let found = missed(best, uncertainty, 0.001);
+            assert!(found.starts_with(words), "{found}");
+        }
     }
 
     #[test]
