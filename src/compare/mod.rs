@@ -121,7 +121,7 @@ pub fn compare(
     table.begin("full field");
     field::full(&mut comparison, make_backend, &mut table)?;
     if comparison.setup.law == Law::HardWall {
-        notes.push("no [adhesion]: DMT is the full field itself, and BAM has no law".to_owned());
+        notes.push("no [adhesion]: DMT is the full field itself".to_owned());
     } else {
         table.begin("DMT");
         field::dmt(&comparison, make_backend, &mut table)?;
