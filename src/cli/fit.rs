@@ -26,7 +26,7 @@ pub(super) struct FitArguments {
     #[arg(value_name = "CURVE.csv", required_unless_present = "pull_off")]
     curve: Option<PathBuf>,
     /// Radius of the sphere, as in "10 um"
-    #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length), required_unless_present_any = ["cone", "pyramid"])]
+    #[arg(long, value_name = "R", value_parser = |text: &str| positive(text, Dimension::Length), allow_hyphen_values = true, required_unless_present_any = ["cone", "pyramid"])]
     radius: Option<f64>,
     /// In place of a sphere: a cone, by the angle between axis and flank, as in "20 deg"
     #[arg(long, value_name = "ANGLE", value_parser = half_angle, conflicts_with_all = ["radius", "pyramid", "range", "pull_off"])]
@@ -51,10 +51,10 @@ pub(super) struct FitArguments {
     #[arg(long, value_name = "QUANTITY=COLUMN", value_delimiter = ',', value_parser = ColumnChoice::parse, conflicts_with = "pull_off")]
     columns: Vec<ColumnChoice>,
     /// Deflection per volt, as in "50 nm/V"
-    #[arg(long, value_name = "M/V", value_parser = |text: &str| positive(text, Dimension::LengthPerVoltage), conflicts_with = "pull_off")]
+    #[arg(long, value_name = "M/V", value_parser = |text: &str| positive(text, Dimension::LengthPerVoltage), allow_hyphen_values = true, conflicts_with = "pull_off")]
     sensitivity: Option<f64>,
     /// Spring constant of the cantilever, as in "0.2 N/m"
-    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), conflicts_with = "pull_off")]
+    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), allow_hyphen_values = true, conflicts_with = "pull_off")]
     spring: Option<f64>,
     /// Relative standard deviation of the spring constant, as in 10%
     #[arg(long, value_name = "SHARE", value_parser = parse_share, default_value = "0", hide_default_value = true, conflicts_with = "pull_off")]
@@ -69,13 +69,13 @@ pub(super) struct FitArguments {
     #[arg(long, conflicts_with_all = ["cone", "pyramid", "range", "pull_off"])]
     advise: bool,
     /// Range of the attraction (work of adhesion over its tension), where it is known
-    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length), conflicts_with = "pull_off")]
+    #[arg(long, value_name = "LENGTH", value_parser = |text: &str| positive(text, Dimension::Length), allow_hyphen_values = true, conflicts_with = "pull_off")]
     range: Option<f64>,
     /// In place of a curve, with --stiffness: the pull-off force, for JKR
-    #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), requires = "stiffness", requires = "radius", conflicts_with = "curve")]
+    #[arg(long, value_name = "FORCE", value_parser = |text: &str| positive(text, Dimension::Force), allow_hyphen_values = true, requires = "stiffness", requires = "radius", conflicts_with = "curve")]
     pull_off: Option<f64>,
     /// Slope of force by approach on the way apart
-    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), requires = "pull_off", conflicts_with = "curve")]
+    #[arg(long, value_name = "N/M", value_parser = |text: &str| positive(text, Dimension::ForcePerLength), allow_hyphen_values = true, requires = "pull_off", conflicts_with = "curve")]
     stiffness: Option<f64>,
     /// Force at which the stiffness was taken, positive in compression
     #[arg(long, value_name = "FORCE", value_parser = |text: &str| quantity(text, Dimension::Force), default_value = "0", requires = "pull_off", allow_hyphen_values = true)]
@@ -112,7 +112,7 @@ fn half_angle(text: &str) -> Result<f64, String> {
 
 impl FitArguments {
     /// The tip; clap asks for one of the three.
-    fn indenter(&self) -> Indenter {
+    pub(super) fn indenter(&self) -> Indenter {
         match (self.cone, self.pyramid) {
             (Some(half_angle), _) => Indenter::Cone { half_angle },
             (None, Some(half_angle)) => Indenter::Pyramid { half_angle },
@@ -169,6 +169,10 @@ fn fit_file(arguments: &FitArguments, path: &Path) -> Result<(), Failure> {
 /// JKR's inversion, as a line of CSV on standard output.
 fn two_numbers(radius: f64, pull_off: f64, load: f64, stiffness: f64) -> Result<(), Failure> {
     let sphere = jkr::from_measurement(radius, pull_off, load, stiffness)?;
+    Indenter::from(radius)
+        .doubt()
+        .iter()
+        .for_each(|doubt| warn(doubt));
     let text = format!(
         "work_of_adhesion,contact_modulus\n{:?},{:?}\n",
         sphere.work_of_adhesion(),

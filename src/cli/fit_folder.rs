@@ -41,6 +41,11 @@ pub(super) fn fit_folder(arguments: &FitArguments, path: &Path, out: &Path) -> R
     fs::create_dir_all(out).map_err(OutputError::write("create the folder", out))?;
     let mut table = GrowingTable::create(&out.join(TABLE), HEADER.to_owned())?;
     let (mut fitted, mut failed) = (Vec::new(), Vec::new());
+    arguments
+        .indenter()
+        .doubt()
+        .iter()
+        .for_each(|doubt| warn(doubt));
     for batch in curves.chunks(BATCH) {
         let results: Vec<_> = batch
             .par_iter()

@@ -138,6 +138,7 @@ pub fn fit_curve(
     let least_aic = fits.iter().map(|fit| fit.aic).fold(f64::INFINITY, f64::min);
     let shows_contact = aic_of_baseline(&measured) - least_aic > CONTACT_AIC;
     let mut warnings = left_out(curve);
+    warnings.extend(indenter.doubt());
     let (chosen, tabor_parameter) = choose(&measured, &fits, &mut warnings).ok_or_else(no_fit)?;
     let work: Number = |p, u| (p.work_of_adhesion, u.work_of_adhesion);
     let modulus: Number = |p, u| (p.contact_modulus, u.contact_modulus);
@@ -308,6 +309,11 @@ fn left_out(curve: &ForceCurve) -> Vec<String> {
                 lines.len()
             ));
         }
+    }
+    if curve.sensitivity_unused {
+        warnings.push(
+            "the sensitivity changes nothing: the curve has no deflection in volts".to_owned(),
+        );
     }
     warnings
 }

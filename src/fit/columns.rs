@@ -128,6 +128,7 @@ struct Column {
     quantity: CurveQuantity,
     place: usize,
     factor: f64,
+    in_volts: bool,
 }
 
 /// The header with the names of the columns.
@@ -238,7 +239,7 @@ impl Head<'_> {
             .then(|| name_and_unit(self.names[place]).1)
             .flatten();
         let unit = choice.and_then(|choice| choice.unit.as_deref()).or(of_head);
-        let factor = self.factor(quantity, unit, how.sensitivity)?;
+        let (factor, in_volts) = self.factor(quantity, unit, how.sensitivity)?;
         let sign = if choice.is_some_and(|choice| choice.reversed) {
             -1.0
         } else {
@@ -248,40 +249,46 @@ impl Head<'_> {
             quantity,
             place,
             factor: sign * factor,
+            in_volts,
         }))
     }
 
-    /// SI value of one unit of a column.
+    /// SI value of one unit of a column, and whether that unit is one of voltage.
     fn factor(
         &self,
         quantity: CurveQuantity,
         unit: Option<&str>,
         sensitivity: Option<f64>,
-    ) -> Result<f64, FitError> {
+    ) -> Result<(f64, bool), FitError> {
         let volts = match unit {
             _ if quantity != CurveQuantity::Deflection => None,
             None => sensitivity.map(|_| 1.0),
             Some(unit) => unit_factor(unit, Dimension::Voltage).ok(),
         };
         match (volts, sensitivity, unit) {
-            (Some(volts), Some(sensitivity), _) => Ok(volts * sensitivity),
+            (Some(volts), Some(sensitivity), _) => Ok((volts * sensitivity, true)),
             (Some(_), None, _) => Err(FitError::NoSensitivity {
                 path: name(self.path),
             }),
-            (None, _, None) => Ok(1.0),
-            (None, _, Some(unit)) => {
-                unit_factor(unit, quantity.dimension()).map_err(|cause| FitError::Unit {
+            (None, _, None) => Ok((1.0, false)),
+            (None, _, Some(unit)) => unit_factor(unit, quantity.dimension())
+                .map(|factor| (factor, false))
+                .map_err(|cause| FitError::Unit {
                     path: name(self.path),
                     line: self.line,
                     column: quantity.name(),
                     cause,
-                })
-            }
+                }),
         }
     }
 }
 
 impl Columns {
+    /// Whether a deflection in volts is read.
+    pub(super) fn in_volts(&self) -> bool {
+        self.across.in_volts
+    }
+
     /// Approach and force of a row; `None` where one of them is missing.
     pub(super) fn sample(
         &self,

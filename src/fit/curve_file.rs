@@ -38,6 +38,8 @@ pub struct ForceCurve {
     pub times: Vec<f64>,
     /// Spring constant of the cantilever, N/m, where it is known.
     pub spring: Option<f64>,
+    /// Whether a sensitivity was given for a table without a deflection in volts.
+    pub sensitivity_unused: bool,
 }
 
 /// An optional column that tabor writes.
@@ -140,12 +142,13 @@ impl ForceCurve {
         };
         let head_row = (!has_head).then_some((line, head));
         let head = Head { path, line, names };
-        let spring = columns.spring;
+        let (spring, sensitivity) = (columns.spring, columns.sensitivity);
         let columns = head.columns(columns)?;
         let converged = head.names.iter().position(|name| *name == CONVERGED);
 
         let mut curve = ForceCurve {
             spring,
+            sensitivity_unused: sensitivity.is_some() && !columns.in_volts(),
             ..ForceCurve::default()
         };
         for (line, text) in head_row.into_iter().chain(lines) {

@@ -10,10 +10,14 @@ use std::f64::consts::{FRAC_PI_2, PI};
 use super::model::Model;
 use crate::theory::TheoryError;
 use crate::theory::tabor_map::Sphere;
+use crate::units::format_si;
 
 /// Force of a four-sided pyramid over E* times the tangent of its half angle and the square of the approach (Bilodeau:
 /// 1.4906/2, where a cone has 2/pi).
 const PYRAMID: f64 = 0.7453;
+
+/// Radius above which a probe is taken for one whose unit was forgotten, m.
+const LARGEST_PROBE: f64 = 1.0;
 
 /// A rigid tip.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -75,6 +79,15 @@ impl Indenter {
             Indenter::Sphere { .. } => &Model::ALL,
             Indenter::Cone { .. } | Indenter::Pyramid { .. } => &[Model::Hertz, Model::Jkr],
         }
+    }
+
+    /// What a radius that probes do not have may have been meant as.
+    pub fn doubt(self) -> Option<String> {
+        let radius = self.radius().filter(|radius| *radius > LARGEST_PROBE)?;
+        Some(format!(
+            "a radius of {} is more than probes have: was it meant in um or nm?",
+            format_si(radius, "m")
+        ))
     }
 
     /// Refuses radii and angles that no tip has.

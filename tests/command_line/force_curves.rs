@@ -123,6 +123,53 @@ fn position_and_deflection_give_what_approach_and_force_give() {
     }
 }
 
+fn options_that_cannot_be_meant_are_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = table("approach,force\n", &curve(1), |[x, f]| {
+        format!("{x:e},{f:e}")
+    });
+    fs::write(folder.path().join("curve.csv"), text).expect("written");
+    let told = |options: &[&str]| {
+        let output = tabor(folder.path(), &[&["fit"], options].concat());
+        (status(&output), errors(&output))
+    };
+    let plain = ["curve.csv", "--radius", "5 um"];
+    let sensitivity = [&plain[..], &["--sensitivity", "60 nm/V"]].concat();
+    let numbers = ["--pull-off", "2 uN", "--stiffness", "30 N/m"];
+    let (unused, doubt) = (
+        "warning: the sensitivity changes nothing: the curve has no deflection in volts",
+        "warning: a radius of 5 m is more than probes have: was it meant in um or nm?",
+    );
+    for (options, line) in [
+        (&sensitivity[..], unused),
+        (&["curve.csv", "--radius", "5"], doubt),
+        (&[&numbers[..], &["--radius", "5"]].concat(), doubt),
+    ] {
+        let (status, said) = told(options);
+        assert!(status == 0 && said.contains(line), "{options:?}: {said}");
+    }
+    let (_, said) = told(&plain);
+    assert!(
+        !said.contains("sensitivity") && !said.contains("radius"),
+        "{said}"
+    );
+    for (number, name) in [("-2 uN", "--pull-off"), ("-30 N/m", "--stiffness")] {
+        let options = [
+            "--radius",
+            "5 um",
+            "--pull-off",
+            "2 uN",
+            "--stiffness",
+            "30 N/m",
+        ];
+        let options = options.map(|word| if word == &number[1..] { number } else { word });
+        let (status, said) = told(&options);
+        let line = format!("invalid value '{number}' for '{name}");
+        assert!(status == 2 && said.contains(&line), "{options:?}: {said}");
+        assert!(said.contains("must be greater than zero"), "{said}");
+    }
+}
+
 fn errors_of_spring_and_radius_are_carried_into_the_result() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = table("approach,force\n", &curve(2), |[x, f]| {
@@ -499,6 +546,7 @@ tests![
     a_curve_that_no_model_describes_is_said_so,
     both_approaches_are_columns,
     position_and_deflection_give_what_approach_and_force_give,
+    options_that_cannot_be_meant_are_told,
     errors_of_spring_and_radius_are_carried_into_the_result,
     a_baseline_with_a_slope_is_levelled,
     a_folder_of_curves_gives_a_table_a_histogram_and_the_failures,
