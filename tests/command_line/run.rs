@@ -979,6 +979,18 @@ fn implausible_quantities_are_warned_of_with_the_likely_slip() {
             "a radius of 1.5 m at the tip of a cantilever: was it meant in um or nm?",
         ),
         (
+            &[
+                "loading={ control = \"pressure\", path = [\"1 mPa\", 0, \"-2 mPa\"] }",
+                "grid.boundary=periodic",
+                "output.steps=all",
+            ],
+            "the greatest mean pressure of the path is 2 mPa: was it meant in MPa?",
+        ),
+        (
+            &["conductance={ conductivity = 45e6, counter_conductivity = 1 }"],
+            "a conductivity of 4.5e7 W/(m K) is more than solids have for heat: was it meant in S/m?",
+        ),
+        (
             &["surface.0.radius=1e-7"],
             "degrees, is steeper than surfaces are: were the heights meant in another unit than the size?",
         ),
