@@ -220,6 +220,25 @@ fn a_flat_surface_has_statistics_and_no_fit() {
     assert!(text.contains("rings of the spectrum are too few"), "{text}");
 }
 
+fn keys_that_change_the_map_are_told_to_be_of_the_scene_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.txt"), "1 2 3\n4 1 2\n0 1 3\n").unwrap();
+    let told = |set: &str| {
+        let call = [
+            "surface", "a.txt", "--unit", "nm", "--size", "1 um", "--out", "out",
+        ];
+        let output = tabor(folder.path(), &[&call[..], &["--set", set]].concat());
+        assert!(output.status.success(), "{}", errors(&output));
+        errors(&output)
+    };
+    for key in ["grid.size", "surface.0.scale"] {
+        let warning = format!("warning: --set {key} is for measured.toml alone");
+        let said = told(&format!("{key}=2"));
+        assert!(said.contains(&warning), "{said}");
+    }
+    assert!(!told("solid.contact_modulus=1e9").contains("--set"));
+}
+
 fn folders_of_others_are_left_alone() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.txt"), "1 2\n4 1\n").unwrap();
@@ -760,5 +779,6 @@ tests![
     a_scene_s_own_parameters_come_back_and_make_a_scene,
     a_measured_patch_leads_to_a_scene,
     a_flat_surface_has_statistics_and_no_fit,
+    keys_that_change_the_map_are_told_to_be_of_the_scene_alone,
     folders_of_others_are_left_alone,
 ];

@@ -215,6 +215,16 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
     for warning in implausible_surface(&surface.grid, slope) {
         warn(&warning);
     }
+    if !is_scene {
+        for key in arguments.set.iter().map(|(key, _)| key.trim()) {
+            if ["grid.size", "grid.points"].contains(&key) || key.starts_with("surface") {
+                warn(&format!(
+                    "--set {key} is for measured.toml alone: statistics and load are those of the map without it; \
+                     --size, --resample, --scale and the other options are for both"
+                ));
+            }
+        }
+    }
     // The table first: it stands even where no picture can be written.
     print(&report.text())?;
     write_pictures(&folder, &report)?;
