@@ -107,6 +107,11 @@ impl Scene {
     ) -> Result<Scene, SceneErrors> {
         let log = Log::new(file_name);
         let scene = match document::parse(text) {
+            Ok(root) if root.get("axis").is_some() && root.get("grid").is_none() => {
+                let reason = "this is a study of many runs, which `tabor sweep` solves".to_owned();
+                log.add(Location::Nowhere, "", SceneError::Conflict { reason });
+                None
+            }
             Ok(mut root) => {
                 overrides::apply(&mut root, overrides, &log);
                 read_tables(&root, folder, &log)

@@ -93,7 +93,11 @@ impl Study {
         let text = read_text(path)?;
         let table: StudyTable = toml::from_str(&text).map_err(|error| SweepError::Syntax {
             path: path.to_path_buf(),
-            reason: error.to_string().trim_end().to_owned(),
+            reason: if is_scene(&text) {
+                "it is a scene, which `tabor run` solves; a study has its name as scene and an [[axis]]".into()
+            } else {
+                error.to_string().trim_end().to_owned()
+            },
         })?;
         if table.axis.is_empty() {
             return Err(SweepError::NoAxis { path: path.into() });
@@ -401,6 +405,12 @@ fn add_files(scene: &Scene, files: &mut BTreeMap<PathBuf, u32>) {
             files.insert(path.to_path_buf(), crc32fast::hash(&bytes));
         }
     }
+}
+
+/// Whether a text that is no study is a scene.
+fn is_scene(text: &str) -> bool {
+    let table: Option<toml::Table> = text.parse().ok();
+    table.is_some_and(|table| table.contains_key("grid") && !table.contains_key("axis"))
 }
 
 fn read_text(path: &Path) -> Result<String, SweepError> {
