@@ -83,8 +83,13 @@ impl FromStr for Share {
     }
 }
 
-/// The value at a key of a resolved scene, such as `surface.0.rms_slope`.
+/// The value at a key of a resolved scene, such as `surface.0.rms_slope`; `None` for keys of ramps, since a resolved
+/// scene with durations has a ramp for each step.
 pub(super) fn value_at<'a>(resolved: &'a Value, key: &str) -> Option<&'a Value> {
+    let mut names = key.split('.').map(str::trim);
+    if names.next() == Some("loading") && names.next() == Some("ramp") {
+        return None;
+    }
     key.split('.')
         .try_fold(resolved, |value, name| match value {
             Value::Array(list) => list.get(name.trim().parse::<usize>().ok()?),

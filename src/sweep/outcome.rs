@@ -212,7 +212,30 @@ pub(super) fn written(text: &str) -> String {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+
+    /// The resolved scene has a ramp a step, of -1 um to 0 and of a fifth of a second first.
+    #[test]
+    fn keys_of_ramps_are_told_as_they_are_written() {
+        let scene = "[grid]\npoints = 8\nsize = 1e-5\n[solid]\ncontact_modulus = 1e6\n[[solid.relaxation]]\nmodulus = 1e6\n\
+                     time = 1\n[[surface]]\nkind = \"sphere\"\nradius = 1e-4\n[loading]\ncontrol = \"approach\"\nstart = -1e-6\n\
+                     [[loading.ramp]]\nto = 1e-6\nsteps = 2\nduration = 0.4\n[[loading.ramp]]\nto = -1e-6\nsteps = 4\nduration = 2\n";
+        let scene = Scene::parse(scene, "scene.toml", Path::new("."), &[]).expect("a scene");
+        let written = [
+            ("0.to", "1e-6"),
+            ("0.duration", "\"0.4 s\""),
+            ("1.steps", "4"),
+            ("1.duration", "2"),
+        ];
+        let settings = written.map(|(key, text)| (format!("loading.ramp.{key}"), text.to_owned()));
+        let case = Case {
+            number: 1,
+            settings: settings.into(),
+        };
+        assert_eq!(values(&case, Some(&scene)), ["1e-6", "0.4", "4", "2"]);
+    }
 
     /// TOML has several ways to quote; none of them is part of the text.
     #[test]
