@@ -52,9 +52,11 @@ pub(super) struct AccuracyArguments {
 
 /// A budget: a time with a unit, or in seconds.
 fn time(text: &str) -> Result<f64, String> {
-    match positive(text, Dimension::Time) {
-        Ok(seconds) if seconds < 1e9 => Ok(seconds),
-        _ => Err("give a time above 0, such as \"5 min\"".to_owned()),
+    let seconds = positive(text, Dimension::Time)?;
+    if seconds < 1e9 {
+        Ok(seconds)
+    } else {
+        Err("give a time below 1e9 s, such as \"5 min\"".to_owned())
     }
 }
 
@@ -231,6 +233,26 @@ impl Drop for Keeper {
     fn drop(&mut self) {
         if let Some(bar) = &self.bar {
             bar.finish_and_clear();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_budget_that_cannot_be_read_is_told_why() {
+        assert_eq!(time("5 min"), Ok(300.0));
+        assert_eq!(time("90"), Ok(90.0));
+        for (text, words) in [
+            ("1 h", "\"h\" is not a unit"),
+            ("10 m", "is a length"),
+            ("0", "greater than zero"),
+            ("1e12", "below 1e9 s"),
+        ] {
+            let said = time(text).expect_err(text);
+            assert!(said.contains(words), "{text}: {said}");
         }
     }
 }
