@@ -220,6 +220,45 @@ fn a_flat_surface_has_statistics_and_no_fit() {
     assert!(text.contains("rings of the spectrum are too few"), "{text}");
 }
 
+fn keys_of_a_measured_scene_take_the_place_of_its_stand_ins() {
+    let folder = tempfile::tempdir().unwrap();
+    fs::write(folder.path().join("a.txt"), "1 2 3\n4 1 2\n0 1 3\n").unwrap();
+    let (modulus, work) = ("solid.contact_modulus", "adhesion.work_of_adhesion");
+    for (set, left) in [
+        (&["solid.contact_modulus=1e9"][..], &[work][..]),
+        (
+            &["solid.young_modulus=1e9", "solid.poisson_ratio=0.3"],
+            &[work],
+        ),
+        (&["solid={ contact_modulus = 1e9 }"], &[work]),
+        (
+            &["adhesion={ law = 'exponential', work_of_adhesion = 0.02, range = 1e-9 }"],
+            &[modulus],
+        ),
+        (&["adhesion.peak_tension=1e6"], &[modulus, work]),
+        (
+            &["adhesion.peak_tension=1e6", "adhesion.range=1e-9"],
+            &[modulus],
+        ),
+        (&["capillary={ humidity = 0.5 }"], &[modulus]),
+    ] {
+        let call = [
+            "surface", "a.txt", "--unit", "nm", "--size", "1 um", "--out", "out",
+        ];
+        let set_words = set.iter().flat_map(|set| ["--set", set]);
+        let output = tabor(
+            folder.path(),
+            &call.into_iter().chain(set_words).collect::<Vec<_>>(),
+        );
+        assert!(output.status.success(), "{set:?}: {}", errors(&output));
+        let scene = fs::read_to_string(folder.path().join("out/measured.toml")).unwrap();
+        let stand_ins = format!("# Stand-ins: {}. Put", left.join(", "));
+        assert!(scene.contains(&stand_ins), "{set:?}: {scene}");
+        let check = tabor(folder.path(), &["check", "out/measured.toml"]);
+        assert!(check.status.success(), "{set:?}: {}", errors(&check));
+    }
+}
+
 fn keys_that_change_the_map_are_told_to_be_of_the_scene_alone() {
     let folder = tempfile::tempdir().unwrap();
     fs::write(folder.path().join("a.txt"), "1 2 3\n4 1 2\n0 1 3\n").unwrap();
@@ -779,6 +818,7 @@ tests![
     a_scene_s_own_parameters_come_back_and_make_a_scene,
     a_measured_patch_leads_to_a_scene,
     a_flat_surface_has_statistics_and_no_fit,
+    keys_of_a_measured_scene_take_the_place_of_its_stand_ins,
     keys_that_change_the_map_are_told_to_be_of_the_scene_alone,
     folders_of_others_are_left_alone,
 ];

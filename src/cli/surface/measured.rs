@@ -55,6 +55,26 @@ pub(super) fn measured_scene(
     if let Some(size) = arguments.size {
         scene["grid"]["size"] = json!(size);
     }
+    let is_set = |key: &str| {
+        let holds = |name: &str| name == key || key.starts_with(&format!("{name}."));
+        set.iter().any(|(name, _)| holds(name.trim()))
+    };
+    // What the call says in other keys takes the place of a stand-in.
+    let third = if is_set("adhesion.range") {
+        "work_of_adhesion"
+    } else {
+        "range"
+    };
+    for (key, table, stand_in) in [
+        ("solid.young_modulus", "/solid", "contact_modulus"),
+        ("adhesion.peak_tension", "/adhesion", third),
+        ("capillary", "", "adhesion"),
+    ] {
+        let table = scene.pointer_mut(table).and_then(Value::as_object_mut);
+        if let Some(table) = table.filter(|_| is_set(key)) {
+            table.remove(stand_in);
+        }
+    }
     // Every mistake of the call with its key, and the modulus that the load follows.
     let read = Scene::parse(&text(&scene)?, NAME, out, set)?;
     let load = PRESSURE * read.solid.contact_modulus * slope;
@@ -62,11 +82,16 @@ pub(super) fn measured_scene(
     for (key, value) in set {
         put(&mut scene, key, parsed(value));
     }
-    let is_set = |key: &str| set.iter().any(|(name, _)| name == key);
-    let stand_ins: Vec<&str> = ["solid.contact_modulus", "adhesion.work_of_adhesion"]
-        .into_iter()
-        .filter(|key| !is_set(key))
-        .collect();
+    let stands_in =
+        |(pointer, key): &(&str, &str)| scene.pointer(pointer).is_some() && !is_set(key);
+    let stand_ins: Vec<&str> = [
+        ("/solid/contact_modulus", "solid.contact_modulus"),
+        ("/adhesion/work_of_adhesion", "adhesion.work_of_adhesion"),
+    ]
+    .into_iter()
+    .filter(stands_in)
+    .map(|(_, key)| key)
+    .collect();
     let mut head = format!(
         "# The measured map {}, {} x {} points, on a periodic cell: pressed, then pulled until the surfaces separate.\n",
         one_line(&part.path),
