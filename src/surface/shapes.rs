@@ -35,16 +35,28 @@ impl ApexPosition {
         ])
     }
 
-    /// Warns of an apex beyond a free grid, where nothing touches.
+    /// Warns of an apex beyond a free grid, where nothing touches, or at its edge, which cuts the part.
     pub fn warning(&self, grid: &Grid) -> Option<String> {
+        if self.boundary != Boundary::Free {
+            return None;
+        }
         let [x, y] = self.centre_on(grid);
+        let axes = [(x, grid.dx(), grid.nx), (y, grid.dy(), grid.ny)];
+        // Whether the apex lies beyond so many pixels within the first and last points.
+        let beyond = |pixels: f64, (at, pixel, points): (f64, f64, usize)| {
+            let last = (points as f64 - 1.0) * pixel;
+            !(pixels * pixel..=last - pixels * pixel).contains(&at)
+        };
         // The grid ends with the pixels around its first and last points.
-        let beside =
-            |at: f64, size: f64, pixel: f64| !(-pixel / 2.0..=size - pixel / 2.0).contains(&at);
-        let outside = beside(x, grid.lx, grid.dx()) || beside(y, grid.ly, grid.dy());
-        (self.boundary == Boundary::Free && outside).then(|| {
-            format!(
+        if axes.into_iter().any(|axis| beyond(-0.5, axis)) {
+            return Some(format!(
                 "the centre ({x:e}, {y:e}) m lies outside of the free grid, where the surfaces would touch first"
+            ));
+        }
+        let cut = axes.into_iter().any(|axis| axis.2 > 2 && beyond(0.5, axis));
+        cut.then(|| {
+            format!(
+                "the centre ({x:e}, {y:e}) m lies at the edge of the free grid, which cuts the part in two: x and y begin at a corner; leave centre out for the middle"
             )
         })
     }
@@ -238,6 +250,38 @@ mod tests {
     }
 
     #[test]
+    fn a_free_grid_warns_of_an_apex_outside_and_at_its_edge() {
+        let grid = Grid::new([8, 4], [8.0, 4.0]);
+        for (centre, words) in [
+            ([3.5, 1.5], None),
+            ([0.5, 2.5], None),
+            ([0.0, 0.0], Some("at the edge")),
+            ([7.0, 1.5], Some("at the edge")),
+            ([3.5, 3.4], Some("at the edge")),
+            ([-0.5, 3.5], Some("at the edge")),
+            ([-0.6, 1.5], Some("outside")),
+            ([9.0, 1.0], Some("the centre (9e0, 1e0) m lies outside")),
+            ([3.5, 4.0], Some("outside")),
+        ] {
+            let said = at(centre, Boundary::Free).warning(&grid);
+            let is_said = said
+                .as_ref()
+                .map(|said| words.is_some_and(|words| said.contains(words)));
+            assert_eq!(is_said, words.map(|_| true), "{centre:?}: {said:?}");
+            assert_eq!(at(centre, Boundary::Periodic).warning(&grid), None);
+        }
+        // Of few points none is inside.
+        let place = ApexPosition {
+            centre: None,
+            boundary: Boundary::Free,
+            first_row: 0,
+        };
+        for points in [[1, 1], [2, 2], [3, 3]] {
+            assert_eq!(place.warning(&Grid::new(points, [1.0, 1.0])), None);
+        }
+    }
+
+    #[test]
     fn the_default_centre_is_a_pixel_corner_for_even_numbers() {
         let grid = Grid::new([4, 5], [4.0, 10.0]);
         assert_eq!(PERIODIC.centre_on(&grid), [1.5, 4.0]);
@@ -276,18 +320,6 @@ mod tests {
         let mut free = vec![0.0; 32];
         add_sphere(&mut free, &grid, 1.0, at([0.0, 0.0], Boundary::Free)).unwrap();
         assert_eq!(free[7], -24.5);
-    }
-
-    #[test]
-    fn an_apex_outside_a_free_grid_is_reported() {
-        let grid = Grid::new([8, 4], [8.0, 4.0]);
-        assert_eq!(at([-0.5, 3.5], Boundary::Free).warning(&grid), None);
-        assert_eq!(at([9.0, 1.0], Boundary::Periodic).warning(&grid), None);
-        let warning = at([9.0, 1.0], Boundary::Free).warning(&grid).unwrap();
-        assert!(
-            warning.contains("the centre (9e0, 1e0) m lies outside"),
-            "{warning}"
-        );
     }
 
     #[test]
