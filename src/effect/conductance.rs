@@ -22,6 +22,10 @@ pub(super) const ELECTRICAL: Column = Column {
 };
 /// Resistance to a current; empty without contact too.
 pub(super) const RESISTANCE: Column = Column::new("resistance", "ohm", 4);
+/// Largest conductivity for heat, W/(m K): that of diamond and graphite is below 4000.
+const HEAT: f64 = 1e4;
+/// Side of a map, m, from which on a scene is in reduced units.
+const REDUCED: f64 = 0.01;
 
 /// Conduction through the area in contact.
 pub(super) struct Conductance;
@@ -65,6 +69,21 @@ impl Hooks for Conductance {
                 format_si(spot, CONDUCTANCE.unit)
             }
         )
+    }
+
+    fn warnings(&self, plan: &Plan) -> Vec<String> {
+        let grid = plan.outline.grid;
+        let is_heat = |bodies: &ConductanceScene| {
+            bodies.kind == Conduction::Thermal && grid.lx.max(grid.ly) < REDUCED
+        };
+        let bodies = plan.scene.tables.conductance.filter(is_heat);
+        let most = bodies.map(|bodies| bodies.conductivity.max(bodies.counter_conductivity));
+        let slip = most.filter(|most| *most > HEAT).map(|most| {
+            format!(
+                "a conductivity of {most:e} W/(m K) is more than solids have for heat: was it meant in S/m?"
+            )
+        });
+        slip.into_iter().collect()
     }
 
     fn pose(&self, problem: Problem, _: &Scene, _: Option<&[f64]>) -> Problem {

@@ -3,7 +3,7 @@
 use super::plan::Plan;
 #[cfg(feature = "cli")]
 use crate::grid::Grid;
-use crate::scene::{Conduction, Control};
+use crate::scene::Control;
 use crate::units::format_si;
 
 /// Largest side of a map, m.
@@ -14,8 +14,6 @@ const TIP: f64 = 1.0;
 const MODULUS: f64 = 1.0;
 /// Least of the greatest mean pressures that paths have, Pa: the weight of a tenth of a millimetre of water.
 const LOAD: f64 = 1.0;
-/// Largest conductivity for heat, W/(m K): that of diamond and graphite is below 4000.
-const HEAT: f64 = 1e4;
 /// Side of a map, m, from which on a scene is in reduced units, in which a modulus is about 1.
 const REDUCED: f64 = 0.01;
 /// Largest rms slope: steeper than 84 degrees.
@@ -48,14 +46,6 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
             "the greatest mean pressure of the path is {}: was it meant in MPa?",
             format_si(load, "Pa")
         ));
-    }
-    if let Some(bodies) = scene.tables.conductance {
-        let most = bodies.conductivity.max(bodies.counter_conductivity);
-        if bodies.kind == Conduction::Thermal && most > HEAT && side < REDUCED {
-            found.push(format!(
-                "a conductivity of {most:e} W/(m K) is more than solids have for heat: was it meant in S/m?"
-            ));
-        }
     }
     found.extend(of_side(side));
     if let Some(radius) = tip.filter(|radius| *radius >= TIP) {
