@@ -752,7 +752,8 @@ fn bad_calls_say_what_is_wrong() {
     let persson = "persson --hurst 0.8 --rolloff 1e-6 --shortest 1e-7 --contact_modulus 1e9";
     let cases: Vec<(String, &[&str])> = vec![
         ("jrk".into(), &["there is no model \"jrk\"; did you mean jkr?"]),
-        ("maugis".into(), &["there is no model \"maugis\"; tabor theory lists the models"]),
+        ("maugis".into(), &["there is no model \"maugis\"; did you mean maugis-dugdale?"]),
+        ("boussinesq".into(), &["there is no model \"boussinesq\"; tabor theory lists the models"]),
         ("--radius 1e-6 jkr".into(), &["\"--radius\" stands where a model's name is due"]),
         (format!("hertz {SPHERE} --too 1"), &["hertz has no parameter \"--too\"; did you mean --to?", "It takes --radius, --contact_modulus, --from, --to, --points"]),
         ("hertz --radius 1 --modulus 1e9".into(), &["hertz has no parameter \"--modulus\"; it takes --radius", "hertz needs --contact_modulus, E* of the pair, such as --contact_modulus \"1.5 GPa\""]),
