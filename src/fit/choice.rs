@@ -161,7 +161,9 @@ pub fn fit_curve(
             format!("fewer than {ZERO_POINTS} points lie where no force acts, so that a fitted baseline cannot be distinguished from adhesion and no uncertainty is given: do not fit the baseline if the zero of the force is known, or measure until the sphere is free"),
         );
     }
-    let stated = |number: Number| deviation(&fits, chosen, number).filter(|_| zero_known);
+    let range_known = freedom.range.is_some();
+    let stated =
+        |number: Number| deviation(&fits, chosen, range_known, number).filter(|_| zero_known);
     let (work_uncertainty, modulus_uncertainty) = (stated(work), stated(modulus));
     let touch_uncertainty = stated(touch);
     fits[chosen].uncertainties.approach_offset = touch_uncertainty;
@@ -227,14 +229,18 @@ pub fn fit_curve(
 ///
 /// This is the profile of the sum of squares over all models: if the truth is one of their states,
 /// three deviations contain it as often as its sum of squares lies within nine variances of the
-/// least.
-fn deviation(fits: &[ModelFit], chosen: usize, number: Number) -> Option<f64> {
+/// least. A known range leaves the chosen model and Maugis-Dugdale.
+fn deviation(fits: &[ModelFit], chosen: usize, range_known: bool, number: Number) -> Option<f64> {
     let best = &fits[chosen];
     let (value, own) = number(&best.parameters, &best.uncertainties);
+    let possible = |fit: &&ModelFit| {
+        !range_known || fit.model == best.model || fit.model == Model::MaugisDugdale
+    };
     let least = fits
         .iter()
+        .filter(possible)
         .min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares))?;
-    let states = fits.iter().flat_map(ModelFit::states);
+    let states = fits.iter().filter(possible).flat_map(ModelFit::states);
     let spread = states.filter_map(|state: ProfilePoint| {
         let rise = (state.sum_of_squares - least.sum_of_squares) / least.variance;
         state.deviation(value, number, rise)
