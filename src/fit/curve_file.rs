@@ -385,7 +385,7 @@ mod tests {
         assert_eq!(again.unwrap(), curve);
     }
 
-    /// Empty cells at the ends of a line of tabs are cells; a tab too many at its end is none.
+    /// In a line of tabs an empty cell at either end is a cell, but for one after a last tab.
     #[test]
     fn tabs_at_the_ends_of_a_line() {
         let rows = "1\t2\t\n".repeat(LEAST_ROWS);

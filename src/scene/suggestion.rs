@@ -53,7 +53,7 @@ mod tests {
         ] {
             assert_eq!(suggestion(word, words()), expected, "{word}");
         }
-        // Two letters from "wear", and the beginning of the other; the beginning of two is none of them.
+        // Two letters make "leak" of "wear", but it begins "leakage". What begins several words counts for none of them.
         let words = || ["wear", "leakage", "dmt-t", "dmt-ff"].into_iter();
         assert_eq!(suggestion("leak", words()), Some("leakage"));
         assert_eq!(suggestion("dmt", words()), Some("dmt-t"));
