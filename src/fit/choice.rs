@@ -17,6 +17,7 @@ use super::profile::ProfilePoint;
 use super::relaxation::Relaxation;
 use super::signs::check_signs;
 use super::slope::{self, BaselineSlope};
+use super::warnings::{UNCERTAIN, ZERO_POINTS, add_warnings, left_out, misses};
 use crate::theory::Law;
 use crate::theory::tabor_map::{
     FORCE_DMT_LIMIT, JKR_LIMIT, LAMBDA_PER_MU_MATCHED, Regime, Sphere, regime, tabor_parameter,
@@ -29,19 +30,6 @@ pub const DECISIVE_AIC: f64 = 6.0;
 /// Difference of Akaike's criterion from which a curve shows a contact. Noise alone gains up to 17, in one of a hundred curves 24, by
 /// places of first touch and of jumps that suit it.
 pub(super) const CONTACT_AIC: f64 = 20.0;
-/// Fewest points without force that determine a fitted baseline.
-const ZERO_POINTS: usize = 5;
-/// Correlation of neighbouring residuals above which, of either sign, a model misses the curve, in addition to the
-/// 3/sqrt(points) that chance allows.
-pub const MISFIT_CORRELATION: f64 = 0.3;
-/// Correlation of work of adhesion and modulus above which they cannot be separated.
-pub const INSEPARABLE_CORRELATION: f64 = 0.95;
-/// Share of the range of the forces to which a model is computed; below it are rounding and interpolation.
-const EXACT: f64 = 1e-7;
-/// A modulus, Pa, that no solid comes near to: diamond has 1e12.
-const TOO_STIFF: f64 = 1e13;
-/// Relative standard deviation from which a warning is given.
-pub const UNCERTAIN: f64 = 0.3;
 /// If the greatest tension lies within this share of the approach at its closest end, a curve
 /// without compression shows no contact.
 const CLOSEST: f64 = 0.05;
@@ -275,55 +263,6 @@ fn is_pressed(curve: &ForceCurve, measured: &Measured, fits: &[ModelFit]) -> boo
     above > (PRESSED_NOISES * noise).max(PRESSED_SHARE * span)
 }
 
-/// Whether the residuals of a fit are correlated. They alternate where rows of extension and retraction are mixed.
-pub(super) fn misses(measured: &Measured, fit: &ModelFit) -> bool {
-    let chance = 3.0 / (measured.samples.len() as f64).sqrt();
-    fit.noise > EXACT * measured.force_span
-        && fit.autocorrelation.abs() > MISFIT_CORRELATION + chance
-}
-
-/// A warning where DMT, whose attraction has no end, is in tension at most points beyond first touch: an offset of the
-/// force does the same.
-fn endless_tension(measured: &Measured, fit: &ModelFit) -> Option<String> {
-    if fit.model != Model::Dmt || measured.freedom.force_offset {
-        return None;
-    }
-    let touch = fit.parameters.approach_offset;
-    let apart = (0..measured.samples.len()).filter(|at| measured.approaches[*at] < touch);
-    let (pulled, free): (Vec<usize>, Vec<usize>) = apart.partition(|at| fit.interacting[*at]);
-    let farthest = pulled.iter().map(|at| touch - measured.approaches[*at]);
-    let farthest = farthest.fold(0.0, f64::max);
-    let tension = -fit.fitted[*pulled.first()?];
-    (pulled.len() >= ZERO_POINTS && pulled.len() > free.len()).then(|| {
-        format!(
-            "the tension of {} is the same as far as {} beyond first touch, where attraction has ended: if it is an offset of the force, w is that alone; fit the baseline",
-            format_si(tension, "N"),
-            format_si(farthest, "m"),
-        )
-    })
-}
-
-fn left_out(curve: &ForceCurve) -> Vec<String> {
-    let mut warnings = Vec::new();
-    for (lines, why) in [
-        (&curve.incomplete, "miss the approach or the force"),
-        (&curve.unconverged, "are marked as not converged"),
-    ] {
-        if let Some(first) = lines.first() {
-            warnings.push(format!(
-                "{} rows {why} and are left out, the first in line {first}",
-                lines.len()
-            ));
-        }
-    }
-    if curve.sensitivity_unused {
-        warnings.push(
-            "the sensitivity changes nothing: the curve has no deflection in volts".to_owned(),
-        );
-    }
-    warnings
-}
-
 /// The chosen model and the Tabor number it implies.
 fn choose(
     measured: &Measured,
@@ -481,192 +420,6 @@ fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
     tabor_parameter(&sphere.ok()?, range).ok()
 }
 
-/// Warnings about the numbers of a fit.
-fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
-    if let Some(radius) = measured.indenter.radius() {
-        let depth = measured.closest() - fit.parameters.approach_offset;
-        if depth > radius {
-            warnings.push(format!(
-                "the curve presses the sphere in by {:.1} times its radius, and the models hold for depths far below it; if the approach is not in m, name its unit in the header, as in approach [nm]",
-                depth / radius,
-            ));
-        }
-    }
-    warnings.extend(endless_tension(measured, fit));
-    if fit.parameters.contact_modulus > TOO_STIFF {
-        warnings.push(format!(
-            "a contact modulus of {} is more than any solid has; if the force is not in N, name its unit in the header, as in force [nN]",
-            format_si(fit.parameters.contact_modulus, "Pa"),
-        ));
-    }
-    if !fit.converged {
-        warnings.push(format!(
-            "the fit of {} did not converge; its numbers are the best found",
-            fit.model.title()
-        ));
-    }
-    if misses(measured, fit) && fit.autocorrelation < 0.0 {
-        warnings.push(format!(
-            "the residuals of {} alternate (correlation {:.2}): rows of extension and retraction seem to be mixed, as where a table is sorted by approach; give the rows in the order of the measurement, or one direction alone",
-            fit.model.title(),
-            fit.autocorrelation,
-        ));
-    } else if misses(measured, fit) {
-        warnings.push(format!(
-            "the residuals of {} are correlated ({:.2}): the model deviates from the curve by {}, and the uncertainties are no more than orders of magnitude",
-            fit.model.title(),
-            fit.autocorrelation,
-            format_si(fit.noise, "N"),
-        ));
-    }
-    for (first, second, correlation) in &fit.correlations {
-        if (*first, *second) == ("contact_modulus", "work_of_adhesion")
-            && correlation.abs() > INSEPARABLE_CORRELATION
-        {
-            warnings.push(format!(
-                "w and E* are strongly correlated ({correlation:.3}), so that neither is well known by itself"
-            ));
-        }
-    }
-    for (name, value, deviation) in [
-        (
-            "work of adhesion",
-            fit.parameters.work_of_adhesion,
-            fit.uncertainties.work_of_adhesion,
-        ),
-        (
-            "contact modulus",
-            fit.parameters.contact_modulus,
-            fit.uncertainties.contact_modulus,
-        ),
-    ] {
-        if let Some(deviation) = deviation
-            && deviation > UNCERTAIN * value
-        {
-            warnings.push(format!(
-                "the {name} is known to {:.0} % only",
-                100.0 * deviation / value
-            ));
-        }
-    }
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::fit::curve_file::Sample;
-    use crate::fit::test_noise::normal;
-
-    const RADIUS: f64 = 1e-6;
-    const AT_ZERO: Freedom = Freedom {
-        approach_offset: false,
-        force_offset: false,
-        baseline_slope: false,
-        range: None,
-    };
-
-    /// Loading and unloading of a sphere of 1 MPa without adhesion to a depth of 0.1 um, with noise in N, and more at each point.
-    fn sphere(points: u32, noise: f64, seed: u64, more: impl Fn(f64) -> f64) -> ForceCurve {
-        let mut normal = normal(seed);
-        let samples = (0..points).map(|i| {
-            let place = (2.0 * f64::from(i) / f64::from(points - 1) - 1.0).abs();
-            let approach = 1e-7 * (1.0 - 2.0 * place);
-            let hertz = 4.0 / 3.0 * 1e6 * RADIUS.sqrt() * approach.max(0.0).powf(1.5);
-            Sample {
-                approach,
-                force: hertz + more(approach) + noise * normal(),
-            }
-        });
-        ForceCurve {
-            samples: samples.collect(),
-            ..ForceCurve::default()
-        }
-    }
-
-    /// The force of that sphere at its deepest point, N.
-    const DEEPEST: f64 = 4.216e-8;
-
-    fn fitted(curve: &ForceCurve, freedom: Freedom) -> Result<FitResult, FitError> {
-        fit_curve(curve, Path::new("made"), RADIUS, freedom)
-    }
-
-    fn is_warned(result: &FitResult, words: &str) -> bool {
-        result
-            .warnings
-            .iter()
-            .any(|warning| warning.contains(words))
-    }
-
-    /// A curve without contact had a modulus of 650 Pa, without a word, or was said to have wrong signs.
-    #[test]
-    fn noise_alone_is_no_contact() {
-        for seed in 0..4 {
-            let mut curve = sphere(60, 1.0, seed, |_| 0.0);
-            for sample in &mut curve.samples {
-                sample.force *= 1e-10;
-            }
-            let freedom = Freedom {
-                approach_offset: true,
-                force_offset: seed % 2 == 1,
-                ..AT_ZERO
-            };
-            let found = fitted(&curve, freedom);
-            let refused = matches!(found, Err(FitError::NoContact { .. }));
-            assert!(refused, "{seed}: {found:?}");
-        }
-    }
-
-    /// Many points show a contact that no single one does: 130 in contact, the deepest at 3 deviations.
-    #[test]
-    fn a_weak_contact_is_a_contact() {
-        let freedom = Freedom {
-            approach_offset: true,
-            ..AT_ZERO
-        };
-        let found = fitted(&sphere(200, DEEPEST / 3.0, 1, |_| 0.0), freedom).unwrap();
-        let (value, deviation) = (
-            found.best().parameters.contact_modulus,
-            found.modulus_uncertainty.unwrap(),
-        );
-        assert!((value - 1e6).abs() < 3.0 * deviation, "{value} {deviation}");
-    }
-
-    /// Rounding is no misfit: an exact curve was one that no model describes.
-    #[test]
-    fn an_exact_curve_is_described() {
-        let found = fitted(&sphere(120, 0.0, 1, |_| 0.0), AT_ZERO).unwrap();
-        assert_eq!(found.best().model, Model::Hertz);
-        assert!(found.describes_curve, "{:?}", found.warnings);
-        assert_eq!(found.warnings, Vec::<String>::new());
-    }
-
-    /// An offset of the force is a DMT sphere whose attraction has no end. An attraction that ends at first touch is adhesion.
-    #[test]
-    fn a_tension_without_end_is_warned_of() {
-        let tension = 0.3 * DEEPEST;
-        let words = "the same as far as 100 nm";
-        let found = fitted(&sphere(120, 0.01 * DEEPEST, 1, |_| -tension), AT_ZERO).unwrap();
-        assert_eq!(found.best().model, Model::Dmt);
-        assert!(is_warned(&found, words), "{:?}", found.warnings);
-        let ends = |approach: f64| if approach < 0.0 { 0.0 } else { -tension };
-        let found = fitted(&sphere(120, 0.01 * DEEPEST, 1, ends), AT_ZERO).unwrap();
-        assert_eq!(found.best().model, Model::Dmt);
-        assert!(
-            !is_warned(&found, "the same as far as"),
-            "{:?}",
-            found.warnings
-        );
-    }
-
-    /// Numbers in nN, taken as N.
-    #[test]
-    fn a_force_in_another_unit_is_warned_of() {
-        let mut curve = sphere(60, 0.01 * DEEPEST, 1, |_| 0.0);
-        let words = "more than any solid has";
-        assert!(!is_warned(&fitted(&curve, AT_ZERO).unwrap(), words));
-        for sample in &mut curve.samples {
-            sample.force *= 1e9;
-        }
-        assert!(is_warned(&fitted(&curve, AT_ZERO).unwrap(), words));
-    }
-}
+#[path = "choice_tests.rs"]
+mod tests;

@@ -42,6 +42,7 @@ mod slope;
 mod start;
 #[cfg(test)]
 mod test_noise;
+mod warnings;
 
 pub use calibration::Calibration;
 pub use choice::{FitResult, fit_curve};

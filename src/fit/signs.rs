@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
-use super::choice::{CONTACT_AIC, DECISIVE_AIC, misses};
+use super::choice::{CONTACT_AIC, DECISIVE_AIC};
 use super::curve_file::{LEAST_ROWS, name};
 use super::error::FitError;
 use super::estimate::{ModelFit, aic_of_baseline, fit_model};
 use super::measured::{Measured, ReversedSigns};
 use super::model::Model;
+use super::warnings::misses;
 
 /// A force farther away than the largest tension, relative to it, that cannot be noise or drift.
 const FAR_FORCE: f64 = 0.2;

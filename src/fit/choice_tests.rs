@@ -1,0 +1,118 @@
+//! Which model a curve is given, and what is said of it.
+
+use super::*;
+use crate::fit::curve_file::Sample;
+use crate::fit::test_noise::normal;
+
+const RADIUS: f64 = 1e-6;
+const AT_ZERO: Freedom = Freedom {
+    approach_offset: false,
+    force_offset: false,
+    baseline_slope: false,
+    range: None,
+};
+
+/// Loading and unloading of a sphere of 1 MPa without adhesion to a depth of 0.1 um, with noise in N, and more at each point.
+fn sphere(points: u32, noise: f64, seed: u64, more: impl Fn(f64) -> f64) -> ForceCurve {
+    let mut normal = normal(seed);
+    let samples = (0..points).map(|i| {
+        let place = (2.0 * f64::from(i) / f64::from(points - 1) - 1.0).abs();
+        let approach = 1e-7 * (1.0 - 2.0 * place);
+        let hertz = 4.0 / 3.0 * 1e6 * RADIUS.sqrt() * approach.max(0.0).powf(1.5);
+        Sample {
+            approach,
+            force: hertz + more(approach) + noise * normal(),
+        }
+    });
+    ForceCurve {
+        samples: samples.collect(),
+        ..ForceCurve::default()
+    }
+}
+
+/// The force of that sphere at its deepest point, N.
+const DEEPEST: f64 = 4.216e-8;
+
+fn fitted(curve: &ForceCurve, freedom: Freedom) -> Result<FitResult, FitError> {
+    fit_curve(curve, Path::new("made"), RADIUS, freedom)
+}
+
+fn is_warned(result: &FitResult, words: &str) -> bool {
+    result
+        .warnings
+        .iter()
+        .any(|warning| warning.contains(words))
+}
+
+/// A curve without contact had a modulus of 650 Pa, without a word, or was said to have wrong signs.
+#[test]
+fn noise_alone_is_no_contact() {
+    for seed in 0..4 {
+        let mut curve = sphere(60, 1.0, seed, |_| 0.0);
+        for sample in &mut curve.samples {
+            sample.force *= 1e-10;
+        }
+        let freedom = Freedom {
+            approach_offset: true,
+            force_offset: seed % 2 == 1,
+            ..AT_ZERO
+        };
+        let found = fitted(&curve, freedom);
+        let refused = matches!(found, Err(FitError::NoContact { .. }));
+        assert!(refused, "{seed}: {found:?}");
+    }
+}
+
+/// Many points show a contact that no single one does: 130 in contact, the deepest at 3 deviations.
+#[test]
+fn a_weak_contact_is_a_contact() {
+    let freedom = Freedom {
+        approach_offset: true,
+        ..AT_ZERO
+    };
+    let found = fitted(&sphere(200, DEEPEST / 3.0, 1, |_| 0.0), freedom).unwrap();
+    let (value, deviation) = (
+        found.best().parameters.contact_modulus,
+        found.modulus_uncertainty.unwrap(),
+    );
+    assert!((value - 1e6).abs() < 3.0 * deviation, "{value} {deviation}");
+}
+
+/// Rounding is no misfit: an exact curve was one that no model describes.
+#[test]
+fn an_exact_curve_is_described() {
+    let found = fitted(&sphere(120, 0.0, 1, |_| 0.0), AT_ZERO).unwrap();
+    assert_eq!(found.best().model, Model::Hertz);
+    assert!(found.describes_curve, "{:?}", found.warnings);
+    assert_eq!(found.warnings, Vec::<String>::new());
+}
+
+/// An offset of the force is a DMT sphere whose attraction has no end. An attraction that ends at first touch is adhesion.
+#[test]
+fn a_tension_without_end_is_warned_of() {
+    let tension = 0.3 * DEEPEST;
+    let words = "the same as far as 100 nm";
+    let found = fitted(&sphere(120, 0.01 * DEEPEST, 1, |_| -tension), AT_ZERO).unwrap();
+    assert_eq!(found.best().model, Model::Dmt);
+    assert!(is_warned(&found, words), "{:?}", found.warnings);
+    let ends = |approach: f64| if approach < 0.0 { 0.0 } else { -tension };
+    let found = fitted(&sphere(120, 0.01 * DEEPEST, 1, ends), AT_ZERO).unwrap();
+    assert_eq!(found.best().model, Model::Dmt);
+    assert!(
+        !is_warned(&found, "the same as far as"),
+        "{:?}",
+        found.warnings
+    );
+}
+
+/// Numbers in nN, taken as N.
+#[test]
+fn a_force_in_another_unit_is_warned_of() {
+    let mut curve = sphere(60, 0.01 * DEEPEST, 1, |_| 0.0);
+    let words = "more than any solid has";
+    assert!(!is_warned(&fitted(&curve, AT_ZERO).unwrap(), words));
+    for sample in &mut curve.samples {
+        sample.force *= 1e9;
+    }
+    assert!(is_warned(&fitted(&curve, AT_ZERO).unwrap(), words));
+}

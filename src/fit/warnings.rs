@@ -1,0 +1,141 @@
+//! Warnings about a curve and the numbers of its fit.
+
+use super::curve_file::ForceCurve;
+use super::estimate::ModelFit;
+use super::measured::Measured;
+use super::model::Model;
+use crate::units::format_si;
+
+/// Fewest points without force that determine a fitted baseline.
+pub(super) const ZERO_POINTS: usize = 5;
+/// Correlation of neighbouring residuals above which, of either sign, a model misses the curve, in addition to the
+/// 3/sqrt(points) that chance allows.
+const MISFIT_CORRELATION: f64 = 0.3;
+/// Correlation of work of adhesion and modulus above which they cannot be separated.
+const INSEPARABLE_CORRELATION: f64 = 0.95;
+/// Share of the range of the forces to which a model is computed; below it are rounding and interpolation.
+const EXACT: f64 = 1e-7;
+/// A modulus, Pa, that no solid comes near to: diamond has 1e12.
+const TOO_STIFF: f64 = 1e13;
+/// Relative standard deviation from which a warning is given.
+pub(super) const UNCERTAIN: f64 = 0.3;
+
+/// Whether the residuals of a fit are correlated. They alternate where rows of extension and retraction are mixed.
+pub(super) fn misses(measured: &Measured, fit: &ModelFit) -> bool {
+    let chance = 3.0 / (measured.samples.len() as f64).sqrt();
+    fit.noise > EXACT * measured.force_span
+        && fit.autocorrelation.abs() > MISFIT_CORRELATION + chance
+}
+
+/// A warning where DMT, whose attraction has no end, is in tension at most points beyond first touch: an offset of the
+/// force does the same.
+fn endless_tension(measured: &Measured, fit: &ModelFit) -> Option<String> {
+    if fit.model != Model::Dmt || measured.freedom.force_offset {
+        return None;
+    }
+    let touch = fit.parameters.approach_offset;
+    let apart = (0..measured.samples.len()).filter(|at| measured.approaches[*at] < touch);
+    let (pulled, free): (Vec<usize>, Vec<usize>) = apart.partition(|at| fit.interacting[*at]);
+    let farthest = pulled.iter().map(|at| touch - measured.approaches[*at]);
+    let farthest = farthest.fold(0.0, f64::max);
+    let tension = -fit.fitted[*pulled.first()?];
+    (pulled.len() >= ZERO_POINTS && pulled.len() > free.len()).then(|| {
+        format!(
+            "the tension of {} is the same as far as {} beyond first touch, where attraction has ended: if it is an offset of the force, w is that alone; fit the baseline",
+            format_si(tension, "N"),
+            format_si(farthest, "m"),
+        )
+    })
+}
+
+/// Warnings about rows and options that have no effect.
+pub(super) fn left_out(curve: &ForceCurve) -> Vec<String> {
+    let mut warnings = Vec::new();
+    for (lines, why) in [
+        (&curve.incomplete, "miss the approach or the force"),
+        (&curve.unconverged, "are marked as not converged"),
+    ] {
+        if let Some(first) = lines.first() {
+            warnings.push(format!(
+                "{} rows {why} and are left out, the first in line {first}",
+                lines.len()
+            ));
+        }
+    }
+    if curve.sensitivity_unused {
+        warnings.push(
+            "the sensitivity changes nothing: the curve has no deflection in volts".to_owned(),
+        );
+    }
+    warnings
+}
+
+/// Warnings about the numbers of a fit.
+pub(super) fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
+    if let Some(radius) = measured.indenter.radius() {
+        let depth = measured.closest() - fit.parameters.approach_offset;
+        if depth > radius {
+            warnings.push(format!(
+                "the curve presses the sphere in by {:.1} times its radius, and the models hold for depths far below it; if the approach is not in m, name its unit in the header, as in approach [nm]",
+                depth / radius,
+            ));
+        }
+    }
+    warnings.extend(endless_tension(measured, fit));
+    if fit.parameters.contact_modulus > TOO_STIFF {
+        warnings.push(format!(
+            "a contact modulus of {} is more than any solid has; if the force is not in N, name its unit in the header, as in force [nN]",
+            format_si(fit.parameters.contact_modulus, "Pa"),
+        ));
+    }
+    if !fit.converged {
+        warnings.push(format!(
+            "the fit of {} did not converge; its numbers are the best found",
+            fit.model.title()
+        ));
+    }
+    if misses(measured, fit) && fit.autocorrelation < 0.0 {
+        warnings.push(format!(
+            "the residuals of {} alternate (correlation {:.2}): rows of extension and retraction seem to be mixed, as where a table is sorted by approach; give the rows in the order of the measurement, or one direction alone",
+            fit.model.title(),
+            fit.autocorrelation,
+        ));
+    } else if misses(measured, fit) {
+        warnings.push(format!(
+            "the residuals of {} are correlated ({:.2}): the model deviates from the curve by {}, and the uncertainties are no more than orders of magnitude",
+            fit.model.title(),
+            fit.autocorrelation,
+            format_si(fit.noise, "N"),
+        ));
+    }
+    for (first, second, correlation) in &fit.correlations {
+        if (*first, *second) == ("contact_modulus", "work_of_adhesion")
+            && correlation.abs() > INSEPARABLE_CORRELATION
+        {
+            warnings.push(format!(
+                "w and E* are strongly correlated ({correlation:.3}), so that neither is well known by itself"
+            ));
+        }
+    }
+    for (name, value, deviation) in [
+        (
+            "work of adhesion",
+            fit.parameters.work_of_adhesion,
+            fit.uncertainties.work_of_adhesion,
+        ),
+        (
+            "contact modulus",
+            fit.parameters.contact_modulus,
+            fit.uncertainties.contact_modulus,
+        ),
+    ] {
+        if let Some(deviation) = deviation
+            && deviation > UNCERTAIN * value
+        {
+            warnings.push(format!(
+                "the {name} is known to {:.0} % only",
+                100.0 * deviation / value
+            ));
+        }
+    }
+}
