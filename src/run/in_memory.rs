@@ -52,8 +52,11 @@ pub fn solve_with(
             let Some(fallback) = device.fallback(&setup) else {
                 return Err(error.into());
             };
-            observer.warning(&format!("{error}; the processor begins again"));
-            (walk(&fallback, observer)?, fallback)
+            let failed = format!("{error}; the processor begins again");
+            observer.warning(&failed);
+            let end = walk(&fallback, observer)?;
+            warnings.push(failed);
+            (end, fallback)
         }
     };
     seconds.add("solve", clock.seconds());

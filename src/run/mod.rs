@@ -126,14 +126,19 @@ fn run_on(
         draws: options.draws(),
         ranks: ranks.as_deref(),
     };
-    match work.walk(&device, existing, seconds.clone(), observer)? {
+    match work.walk(&device, existing, None, seconds.clone(), observer)? {
         Walked::Ended(end) => Ok(*end),
         // The device failed and another can continue: the solved steps are kept.
         Walked::Failed(error, fallback) => {
-            observer.warning(&format!(
-                "{error}; the processor continues after the last finished step"
-            ));
-            match work.walk(&fallback, ExistingRun::Resume, seconds, observer)? {
+            let failed = format!("{error}; the processor continues after the last finished step");
+            observer.warning(&failed);
+            match work.walk(
+                &fallback,
+                ExistingRun::Resume,
+                Some(failed),
+                seconds,
+                observer,
+            )? {
                 Walked::Ended(end) => Ok(*end),
                 Walked::Failed(error, _) => Err(error.into()),
             }
@@ -193,11 +198,12 @@ enum Walked {
 }
 
 impl Work<'_> {
-    /// Walks the path on a device and writes its folder.
+    /// Walks the path on a device and writes its folder, with the warning of how the device before it `failed`.
     fn walk(
         &self,
         device: &SelectedDevice,
         existing: ExistingRun,
+        failed: Option<String>,
         mut seconds: Seconds,
         observer: &mut dyn RunObserver,
     ) -> Result<Walked, RunError> {
@@ -223,6 +229,7 @@ impl Work<'_> {
             Some(ranks) => agree(ranks, opened.map_err(RunError::from).and_then(threaded))?,
             None => opened?,
         };
+        directory.warnings.extend(failed);
         for remark in device.remark.iter().chain(&directory.remarks) {
             observer.note(remark);
         }

@@ -425,6 +425,9 @@ fn a_device_out_of_memory_says_so_and_auto_goes_on() {
     assert!(message.contains("the processor continues"), "{message}");
     let said = summary(&folder.path().join("auto"));
     assert_eq!(said["backend"], "cpu");
+    // Also where no step was finished before.
+    let warnings = said["warnings"].to_string();
+    assert!(warnings.contains("out of memory on "), "{warnings}");
 }
 
 /// A buffer of 4 KiB holds a fourth of a field of 64 x 64; the coarse grid of the wall stays whole.
