@@ -11,6 +11,7 @@ use crate::clock::Clock;
 use crate::device::Device;
 use crate::output::sentence;
 use crate::run::{RunEnd, RunError, RunObserver, RunOptions, RunStatus, run_on_ranks, run_with};
+use crate::scene::Precision;
 use crate::study::{StepRow, Unreachable};
 
 /// Solves a scene and writes its folder, with the other processes of a launcher if there are some.
@@ -140,8 +141,32 @@ impl RunObserver for Terminal {
     }
 }
 
+/// What is to be done where a step did not converge: it may have stalled before its iterations ran out, and have been solved in
+/// double precision already.
+fn remedy(unreachable: Option<Unreachable>, stalled: bool, is_double: bool) -> &'static str {
+    match unreachable {
+        None if stalled && is_double => {
+            "the iteration stalls there: name smaller steps, or ask for a larger tolerance"
+        }
+        None if stalled => {
+            "the iteration stalls there: name smaller steps, or ask for precision = \"double\" or a larger tolerance"
+        }
+        None => "allow more max_iterations, or take smaller steps",
+        Some(Unreachable::BeyondClosure) => {
+            "the surfaces cannot be closed further than full contact: end the path earlier"
+        }
+        Some(Unreachable::BeyondHardness) => {
+            "the solid flows everywhere before it bears this load: end the path earlier"
+        }
+        Some(Unreachable::Unmeasured) => {
+            "the contact is solved, and its [conductance] or [leakage] is not: allow more max_iterations"
+        }
+    }
+}
+
 /// The end of a run as its exit status.
 fn judge(end: &RunEnd, max_iterations: usize) -> Result<(), Failure> {
+    let is_double = end.summary.precision == Precision::Double.name();
     match end.status {
         RunStatus::Finished => Ok(()),
         RunStatus::Interrupted { finished, steps } => Err(Failure::Interrupted { finished, steps }),
@@ -156,21 +181,20 @@ fn judge(end: &RunEnd, max_iterations: usize) -> Result<(), Failure> {
             residual,
             iterations,
             tolerance,
-            remedy: match unreachable {
-                None if iterations < max_iterations => {
-                    "the iteration stalls there: name smaller steps, or ask for precision = \"double\" or a larger tolerance"
-                }
-                None => "allow more max_iterations, or take smaller steps",
-                Some(Unreachable::BeyondClosure) => {
-                    "the surfaces cannot be closed further than full contact: end the path earlier"
-                }
-                Some(Unreachable::BeyondHardness) => {
-                    "the solid flows everywhere before it bears this load: end the path earlier"
-                }
-                Some(Unreachable::Unmeasured) => {
-                    "the contact is solved, and its [conductance] or [leakage] is not: allow more max_iterations"
-                }
-            },
+            remedy: remedy(unreachable, iterations < max_iterations, is_double),
         }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A stall in double precision is not sent to double precision.
+    #[test]
+    fn the_remedy_of_a_stall_is_another_precision_only_where_there_is_one() {
+        let double = |is_double| remedy(None, true, is_double).contains("double");
+        assert!(double(false) && !double(true));
+        assert!(remedy(None, false, true).contains("max_iterations"));
     }
 }
