@@ -306,16 +306,22 @@ fn warn(
     }
     if held.modes < all.modes {
         let missing = (1.0 - (held.slope / all.slope).sqrt()) * 100.0;
+        let too_few = |length: f64| 2 * (length / scene.shortest * (1.0 + BAND_MARGIN)) as usize;
+        let [x, y] = [grid.lx, grid.ly].map(too_few);
+        // An axis with points enough for its waves needs no more, as where a strip has none across.
+        let points = match [grid.nx > x, grid.ny > y] {
+            [true, false] => format!("{y} points along y"),
+            [false, true] => format!("{x} points along x"),
+            _ => format!("{x} x {y} points"),
+        };
         warnings.push(format!(
             "the grid is too coarse for {} of the {} waves down to shortest = {:e} m: the rms slope is \
-             {:.4e} in place of {:.4e} ({missing:.2} % missing); take more than {:.0} x {:.0} points",
+             {:.4e} in place of {:.4e} ({missing:.2} % missing); take more than {points}",
             all.modes - held.modes,
             all.modes,
             scene.shortest,
             held.slope.sqrt(),
             all.slope.sqrt(),
-            2.0 * (grid.lx / scene.shortest * (1.0 + BAND_MARGIN)).floor(),
-            2.0 * (grid.ly / scene.shortest * (1.0 + BAND_MARGIN)).floor(),
         ));
     }
 }

@@ -123,6 +123,14 @@ fn a_coarse_grid_reports_missing_waves() {
         warnings[1].contains("% missing); take more than 128 x 128 points"),
         "{warnings:?}"
     );
+    // A strip that is narrower than the shortest wave has enough of any points across.
+    let strip = Grid::new([32, 3], [size[0], size[1] / 100.0]);
+    let mut warnings = Vec::new();
+    build(&scene, &strip, &whole(&strip), &mut warnings).unwrap();
+    assert!(
+        warnings[0].contains("% missing); take more than 128 points along x"),
+        "{warnings:?}"
+    );
 }
 
 #[test]
