@@ -18,7 +18,7 @@ const GW_AREA: f64 = 0.05;
 
 /// Interacting asperities, the law's traction summed over their gap field.
 pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
-    let setup = &comparison.setup;
+    let (setup, law) = (&comparison.setup, comparison.summed_law);
     let modulus = setup.scene.solid.contact_modulus;
     let unit = modulus * setup.statistics.moments.rms_slope();
     let surface = Icha::new(setup.surface.grid, &setup.surface.heights)?;
@@ -36,10 +36,10 @@ pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Sto
             }
         };
         let gap = pressed.gap(&surface);
-        let attraction = gap.mean_outside(|gap| setup.law.traction(gap));
+        let attraction = gap.mean_outside(|gap| law.traction(gap));
         let area = pressed.contact_area_fraction();
         scan.add(repulsive, area, gap.mean(), attraction);
-        if scan.stays_above(largest, setup.law.peak_tension()) {
+        if scan.stays_above(largest, law.peak_tension()) {
             break;
         }
     }

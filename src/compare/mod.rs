@@ -22,9 +22,9 @@ use crate::backend::BackendError;
 use crate::clock::Clock;
 use crate::law::Law;
 use crate::output::OutputError;
-use crate::scene::{Boundary, Scene, SurfacePart};
+use crate::scene::{AdhesionScene, Boundary, Scene, SurfacePart, Treatment};
 use crate::solver::MakeBackend;
-use crate::study::Setup;
+use crate::study::{Setup, resolve_law};
 use crate::theory::TheoryError;
 use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use table::Table;
@@ -74,6 +74,8 @@ struct Comparison {
     loads: Vec<f64>,
     /// Work of adhesion over range of the law, Pa; 0 without adhesion.
     tension: f64,
+    /// The law of models that sum the attraction over a gap: that of the DMT treatment, without the automatic taper.
+    summed_law: Law,
 }
 
 impl Comparison {
@@ -116,6 +118,7 @@ pub fn compare(
             range if range > 0.0 => setup.law.work_of_adhesion() / range,
             _ => 0.0,
         },
+        summed_law: summed_law(&setup),
         setup,
     };
     table.begin("full field");
@@ -151,6 +154,19 @@ pub fn compare(
     #[cfg(feature = "images")]
     draw::figure(&comparison, &rows).write(&folder.join("compare.png"))?;
     Ok(Compared { rows, notes })
+}
+
+/// The law of the DMT treatment of a scene, whose automatic taper is 0: no edge is solved for that it would free.
+fn summed_law(setup: &Setup) -> Law {
+    let Some(adhesion) = setup.scene.adhesion.clone() else {
+        return Law::HardWall;
+    };
+    let adhesion = AdhesionScene {
+        treatment: Treatment::Dmt,
+        ..adhesion
+    };
+    let pixel = setup.surface.grid.longer_pixel();
+    resolve_law(&adhesion, pixel, setup.scene.solid.contact_modulus, 1.0)
 }
 
 type Model = fn(&Comparison, &mut Table) -> Result<(), Stopped>;

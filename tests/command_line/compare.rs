@@ -255,8 +255,8 @@ fn pull_offs_of_full_field_and_run(scene: &str, side: f64) -> [f64; 2] {
     [found, force / side.powi(2)]
 }
 
-/// Pull-off by the DMT treatment is of the law that its loads have: the sharp one, whatever taper the full field takes.
-fn the_dmt_rows_have_one_law() {
+/// Pull-off by the DMT treatment and by ICHA is of the law that the loads of DMT have: the sharp one, whatever taper the full field takes.
+fn summed_attraction_has_no_automatic_taper() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = SMOOTH.replace(
         "law = \"lennard-jones\"\nwork_of_adhesion = \"0.2 J/m^2\"\nrange = \"1 nm\"",
@@ -269,14 +269,18 @@ fn the_dmt_rows_have_one_law() {
         let output = tabor(folder.path(), &call);
         assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
         let rows = rows(&folder.path().join(out).join("compare.csv"));
-        let dmt = of(&rows, "DMT");
-        ["mean_pressure", "adhesive_pressure"].map(|name| number(dmt[0], name).expect("a number"))
+        ["DMT", "ICHA"].map(|model| {
+            let columns = ["mean_pressure", "adhesive_pressure"];
+            columns.map(|name| number(of(&rows, model)[0], name).expect("a number"))
+        })
     };
     let own = found("own", &[]);
     assert_eq!(own, found("sharp", &["--set", "adhesion.taper=0"]));
     // Of a sharp law a whole number of points attracts, each by its peak.
-    let points = own[1] / (50e-3 / 1e-9) * 64.0 * 64.0;
-    assert!((points - points.round()).abs() < 1e-6 * points, "{points}");
+    for [_, attraction] in own {
+        let points = attraction / (50e-3 / 1e-9) * 64.0 * 64.0;
+        assert!((points - points.round()).abs() < 1e-6 * points, "{points}");
+    }
 }
 
 /// BAM's gap closes at (3/8) q0 h E* less its tension times the normal distribution from 0 to its range: 271.6 - 96.4 MPa. Of
@@ -328,7 +332,7 @@ fn models_say_where_they_end_and_whose_slope_they_have() {
 
 tests![
     models_say_where_they_end_and_whose_slope_they_have,
-    the_dmt_rows_have_one_law,
+    summed_attraction_has_no_automatic_taper,
     the_greatest_tension_is_found_behind_a_lesser_one_and_on_the_way_out,
     the_greatest_tension_before_a_sudden_fall_is_found,
     a_closed_contact_holds_its_greatest_tension_as_it_begins_to_open,
