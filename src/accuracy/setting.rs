@@ -3,7 +3,9 @@
 use super::steps::{PathVariant, Steps};
 use crate::grid::Grid;
 use crate::law::Law;
-use crate::scene::{AdhesionScene, BackendName, LawName, Precision, Range, Scene, Treatment};
+use crate::scene::{
+    AdhesionMap, AdhesionScene, BackendName, LawName, Precision, Range, Scene, Treatment,
+};
 use crate::study::resolve_law;
 
 /// How the adhesion is modelled.
@@ -158,7 +160,8 @@ impl Setting {
                     taper: None,
                     ..law.clone()
                 };
-                match resolve_law(&auto, pixel, scene.solid.contact_modulus, 1.0) {
+                let strongest = strongest(&auto);
+                match resolve_law(&auto, pixel, scene.solid.contact_modulus, strongest) {
                     Law::MaugisDugdale(law) => Some(0.5 * law.taper),
                     _ => None,
                 }
@@ -213,6 +216,14 @@ impl Setting {
     }
 }
 
+/// The largest factor on the tension that the pattern of a study has; 1 without one.
+pub(super) fn strongest(adhesion: &AdhesionScene) -> f64 {
+    match &adhesion.map {
+        Some(AdhesionMap::Pattern { low, high, .. }) => low.max(*high),
+        _ => 1.0,
+    }
+}
+
 /// Relative difference up to which two ranges are equal.
 const SAME_RANGE: f64 = 1e-9;
 
@@ -228,7 +239,8 @@ fn is_longer(scene: &Scene, adhesion: &AdhesionScene, points: [usize; 2]) -> boo
         ..adhesion.clone()
     };
     let pixel = grid.longer_pixel();
-    let asked = resolve_law(&auto, pixel, scene.solid.contact_modulus, 1.0).range();
+    let modulus = scene.solid.contact_modulus;
+    let asked = resolve_law(&auto, pixel, modulus, strongest(adhesion)).range();
     asked > given * (1.0 + SAME_RANGE)
 }
 
@@ -352,5 +364,23 @@ mod tests {
         ] {
             assert!(closed_form(&scene, [16, 16]).is_none() && !sums(&scene));
         }
+    }
+
+    /// The automatic taper grows with the largest factor of a map; half of it was an eighth for a factor of 4.
+    #[test]
+    fn half_the_taper_is_half_of_that_on_a_map() {
+        let map = "map = { pattern = \"checker\", period = 0.5, low = 1, high = 4 }";
+        let scene = sphere("", map, "");
+        let taper = |taper: Taper| {
+            let own = Setting::own(&scene, [16, 16]);
+            let adhesion = Setting { taper, ..own }.apply(&scene).0.adhesion;
+            match resolve_law(&adhesion.expect("a law"), 1.0 / 16.0, 1.0, 4.0) {
+                Law::MaugisDugdale(law) => law.taper,
+                _ => f64::NAN,
+            }
+        };
+        // 6 times 4 times 0.1 over 16.
+        assert!((taper(Taper::AsGiven) - 0.15).abs() < 1e-15);
+        assert!((taper(Taper::Half) - 0.075).abs() < 1e-15);
     }
 }

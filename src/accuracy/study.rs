@@ -10,13 +10,13 @@ use super::measure::{Measured, Unfinished, compared, measure};
 use super::provider::{BackendProvider, Listener};
 use super::reference::Reference;
 use super::report::{LeftOut, Report, Row, duration};
-use super::setting::{Setting, Varied, others};
+use super::setting::{Setting, Varied, others, strongest};
 use super::steps::Steps;
 use crate::clock::Clock;
 use crate::grid::Grid;
 use crate::kernel::Scalars;
 use crate::law::Law;
-use crate::scene::{AdhesionMap, BackendName, Control, Scene, Treatment};
+use crate::scene::{BackendName, Control, Scene, Treatment};
 use crate::study::{Setup, resolve_law};
 
 /// Share of the budget for the reference.
@@ -493,10 +493,7 @@ fn unbearable_load(scene: &Scene, grid: &Grid) -> Option<f64> {
         Control::Force => grid.area(),
         Control::Approach | Control::MeanGap => return None,
     };
-    let strongest = match &adhesion.map {
-        Some(AdhesionMap::Pattern { low, high, .. }) => low.max(*high),
-        _ => 1.0,
-    };
+    let strongest = strongest(adhesion);
     // The finest grid, that of the reference, has the greatest tension if the range is "auto".
     let pixel = 0.5 * grid.longer_pixel();
     let law = resolve_law(adhesion, pixel, scene.solid.contact_modulus, strongest);
