@@ -1,6 +1,6 @@
 //! The full field, and the field without adhesion with the attraction added afterwards (DMT).
 
-use super::load_scan::{LoadScan, scan_loads};
+use super::load_scan::{LoadScan, distinct_loads, scan_loads};
 use super::retraction::Retraction;
 use super::table::Table;
 use super::{CompareError, Comparison, State};
@@ -131,9 +131,7 @@ pub(super) fn full(
         Ok(true)
     };
     follow_path(comparison, make_backend, control, path, full, keep)?;
-    loads.sort_by(f64::total_cmp);
-    loads.dedup();
-    comparison.loads = loads;
+    comparison.loads = distinct_loads(loads);
     Ok(())
 }
 
