@@ -576,6 +576,19 @@ fn waves_have_the_reference_values() {
     close(table.note("closing_pressure"), extreme("jump_full"), 1e-8);
 }
 
+/// Of Hertz a^2 is R times the approach: at four radii it is two of them, and at a quarter half of one.
+fn a_contact_wider_than_its_sphere_is_warned_of() {
+    let warning = |call: &str| {
+        let table = Table::from_example("hertz", call);
+        let mut comments = table.comments.into_iter();
+        comments.find(|line| line.contains("warning"))
+    };
+    let wide = warning("--radius \"1 um\" --contact_modulus \"1 GPa\" --to \"4 um\" --points 3");
+    assert!(wide.is_some_and(|line| line.contains("grows to 2.00 radii")));
+    let small = warning("--radius \"1 um\" --contact_modulus \"1 GPa\" --to \"250 nm\" --points 3");
+    assert_eq!(small, None);
+}
+
 fn summits_have_the_reference_values() {
     let call = "--radius \"10 um\" --density \"1 1/um^2\" --rms_height \"1 nm\" --contact_modulus \"100 GPa\" --from \"1 nm\" --points 2";
     let table = Table::from_example("gw", call);
@@ -848,6 +861,7 @@ tests![
     the_map_of_theories_has_the_reference_values,
     advice_follows_tabor_number_and_roughness,
     waves_have_the_reference_values,
+    a_contact_wider_than_its_sphere_is_warned_of,
     summits_have_the_reference_values,
     spectra_have_the_reference_values,
     surfaces_without_pull_off_have_their_tables,

@@ -24,7 +24,7 @@ use super::patience::Patience;
 use super::{Arguments, Failure, TheoryArguments, print};
 use crate::output::visible_line;
 use crate::scene::suggestion;
-use catalogue::{MODELS, Model};
+use catalogue::{Cell, MODELS, Model, Table};
 use values::Values;
 
 /// Prints the table of a model, the help of a model, or the list of the models.
@@ -49,8 +49,29 @@ pub(super) fn text(words: &[String]) -> Result<String, Failure> {
         return Ok(print::help(model));
     }
     let values = Values::read(model, rest).map_err(|messages| usage(&messages))?;
-    let table = (model.table)(&values)?;
+    let mut table = (model.table)(&values)?;
+    table.notes.extend(wide_contact(model, &values, &table));
     Ok(print::csv(model, &values, &table))
+}
+
+/// A warning of a contact with a sphere that is wider than the sphere.
+fn wide_contact(model: &Model, values: &Values, table: &Table) -> Option<String> {
+    let radius = values.given("radius")?;
+    let mut columns = model.columns.split(", ");
+    let column = columns.position(|name| name.starts_with("contact_radius"))?;
+    let widest = table
+        .rows
+        .iter()
+        .fold(0.0_f64, |widest, row| match row[column] {
+            Cell::Number(found) => widest.max(found),
+            Cell::Word(_) => widest,
+        });
+    (widest > radius).then(|| {
+        format!(
+            "warning: the contact radius grows to {:.2} radii of the sphere; the model takes the sphere for a paraboloid, as it is near its apex",
+            widest / radius
+        )
+    })
 }
 
 fn find(name: &str) -> Result<&'static Model, Failure> {
