@@ -25,14 +25,12 @@ pub(super) struct AxisTable {
     /// Number of values of a range.
     count: Option<usize>,
     /// How a range is spaced.
-    #[serde(default)]
-    spacing: Spacing,
+    spacing: Option<Spacing>,
 }
 
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
 #[serde(rename_all = "lowercase")]
 enum Spacing {
-    #[default]
     Linear,
     Log,
 }
@@ -66,6 +64,12 @@ impl AxisTable {
             }
         };
         let ranged = self.from.is_some() || self.to.is_some() || self.count.is_some();
+        if self.values.is_some() && !ranged && self.spacing.is_some() {
+            return Err(
+                "spacing is that of a range (from, to and count); values are taken as they are"
+                    .into(),
+            );
+        }
         let values = match (&self.values, ranged) {
             (Some(values), false) => values
                 .iter()
@@ -104,7 +108,13 @@ impl AxisTable {
                 last.unit_in_words()
             ));
         }
-        if self.spacing == Spacing::Log && (first.number <= 0.0 || last.number <= 0.0) {
+        if count == 1 && first.number != last.number {
+            return Err(format!(
+                "count = 1 leaves out to = {to}; give values = [{from}], or a larger count"
+            ));
+        }
+        let spacing = self.spacing.unwrap_or(Spacing::Linear);
+        if spacing == Spacing::Log && (first.number <= 0.0 || last.number <= 0.0) {
             return Err("a logarithmic range needs positive ends".into());
         }
         let whole = first.is_whole && last.is_whole;
@@ -113,7 +123,7 @@ impl AxisTable {
             index if index + 1 == count => last.number,
             index => {
                 let share = index as f64 / (count - 1) as f64;
-                without_rounding(match self.spacing {
+                without_rounding(match spacing {
                     Spacing::Linear => first.number + share * (last.number - first.number),
                     Spacing::Log => first.number * (last.number / first.number).powf(share),
                 })
@@ -232,7 +242,7 @@ mod tests {
             ["0.1", "0.3"]
         );
         assert_eq!(
-            of_one("key = \"k\"\nfrom = 0.1\nto = 0.3\ncount = 1"),
+            of_one("key = \"k\"\nfrom = 0.1\nto = 0.1\ncount = 1"),
             ["0.1"]
         );
         assert_eq!(
@@ -261,6 +271,14 @@ mod tests {
             ("key = \"k\"\nvalues = [1]\ncount = 3", "not both"),
             ("key = \"k\"\nfrom = 1", "needs from, to and count"),
             ("key = \"k\"\nfrom = 1\nto = 2\ncount = 0", "between 1 and"),
+            (
+                "key = \"k\"\nfrom = \"1 nm\"\nto = \"2 nm\"\ncount = 1",
+                "leaves out to = \"2 nm\"; give values = [\"1 nm\"]",
+            ),
+            (
+                "key = \"k\"\nvalues = [1, 10]\nspacing = \"log\"",
+                "spacing is that of a range",
+            ),
             (
                 "key = \"k\"\nfrom = 0\nto = 2\ncount = 2\nspacing = \"log\"",
                 "positive",
