@@ -1,6 +1,6 @@
 //! A quantity of the runs over one key, a curve for each value of another, averaged over all others.
 
-use super::outcome::{Outcome, QUANTITIES, Quantity};
+use super::outcome::{Outcome, quantity_names, unit_of_quantity};
 use super::study::Study;
 use crate::output::csv_line::csv_line;
 
@@ -12,7 +12,9 @@ const CHOSEN: [&str; 2] = ["pull_off_force", "largest_contact_area_fraction"];
 /// Mean and spread of a quantity.
 pub(super) struct Means {
     /// The quantity.
-    pub quantity: Quantity,
+    pub quantity: String,
+    /// Its SI unit; `%` for a share.
+    pub unit: &'static str,
     /// The key along x.
     pub x: String,
     /// The key of which each value has a curve.
@@ -77,7 +79,7 @@ impl Means {
                 |outcome: &&&Outcome| series.is_none_or(|key| outcome.values[key] == *value);
             let points = finished.iter().filter(is_own).filter_map(|outcome| {
                 let x = number(&outcome.values[x])?;
-                Some([x, outcome.quantity(quantity.name)?])
+                Some([x, outcome.quantity(&quantity)?])
             });
             Curve {
                 value: (*value).to_owned(),
@@ -92,10 +94,11 @@ impl Means {
         if runs == 0 {
             return Err(format!(
                 "[plot]: no finished case has both a number at {} and {}",
-                keys[x], quantity.name
+                keys[x], quantity
             ));
         }
         Ok(Means {
+            unit: unit_of_quantity(&quantity, &finished),
             quantity,
             x: keys[x].to_owned(),
             series: series.map(|key| keys[key].to_owned()),
@@ -115,7 +118,7 @@ impl Means {
         let head = [
             self.x.as_str(),
             "runs",
-            self.quantity.name,
+            self.quantity.as_str(),
             "standard_deviation",
         ];
         let mut text = csv_line(series.chain(head));
@@ -161,17 +164,15 @@ fn places(study: &Study, keys: &[&str], outcomes: &[&Outcome]) -> Option<(usize,
 }
 
 /// What the study names, else the first choice that the runs have; or that they do not have it.
-fn quantity(study: &Study, outcomes: &[&Outcome]) -> Result<Quantity, String> {
+fn quantity(study: &Study, outcomes: &[&Outcome]) -> Result<String, String> {
     let is_there = |name: &str| outcomes.iter().any(|it| it.quantity(name).is_some());
-    let known = |name: &str| QUANTITIES.into_iter().find(|known| known.name == name);
     let named = study.plot.y.as_deref();
     let chosen = match named {
         Some(name) => Some(name).filter(|name| is_there(name)),
         None => CHOSEN.into_iter().find(|name| is_there(name)),
     };
-    chosen.and_then(known).ok_or_else(|| {
-        let others = QUANTITIES.iter().map(|known| known.name);
-        let others: Vec<&str> = others.filter(|name| is_there(name)).collect();
+    chosen.map(str::to_owned).ok_or_else(|| {
+        let others: Vec<String> = quantity_names().filter(|name| is_there(name)).collect();
         format!(
             "plot.y: no finished case has {}; they have {}",
             named.unwrap_or(&CHOSEN.join(" or ")),

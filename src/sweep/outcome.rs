@@ -6,7 +6,8 @@ use serde::{Deserialize, Serialize};
 use serde_json::Value;
 
 use super::cases::{Case, value_at};
-use crate::output::curve::{format_row, header};
+use crate::effect::Effect;
+use crate::output::curve::{HEADER, format_row, header};
 use crate::run::{RunEnd, RunStatus};
 use crate::scene::Scene;
 use crate::study::Column;
@@ -62,6 +63,23 @@ pub(super) const QUANTITIES: [Quantity; 12] = [
         end.summary.hysteresis_uncertainty
     }),
 ];
+
+/// Before the name of a column of an effect: its value in the last row.
+const LAST: &str = "last_";
+
+/// The names of all quantities of a run, those of all effects behind the others.
+pub(super) fn quantity_names() -> impl Iterator<Item = String> {
+    let columns = Effect::ALL.into_iter().flat_map(Effect::columns);
+    QUANTITIES
+        .into_iter()
+        .map(|quantity| quantity.name.to_owned())
+        .chain(columns.map(last_of))
+}
+
+/// The name of the quantity that a column of an effect is in the last row.
+pub(super) fn last_of(column: &str) -> String {
+    format!("{LAST}{column}")
+}
 
 /// How a case ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -167,8 +185,37 @@ impl Outcome {
 
     /// A quantity by its name.
     pub(super) fn quantity(&self, name: &str) -> Option<f64> {
-        let place = QUANTITIES.iter().position(|known| known.name == name)?;
-        self.quantities.get(place)?.parse().ok()
+        match QUANTITIES.iter().position(|known| known.name == name) {
+            Some(place) => self.quantities.get(place)?.parse().ok(),
+            None => self.last(name.strip_prefix(LAST)?)?.parse().ok(),
+        }
+    }
+
+    /// Columns of effects in its rows.
+    pub(super) fn effect_columns(&self) -> impl Iterator<Item = &str> {
+        let behind = self.header.strip_prefix(HEADER).unwrap_or_default();
+        behind.split(',').filter(|column| !column.is_empty())
+    }
+
+    /// The cell of a column of an effect in the last row.
+    pub(super) fn last(&self, column: &str) -> Option<&str> {
+        let place = self.effect_columns().position(|known| known == column)?;
+        let before = HEADER.split(',').count();
+        self.rows.last()?.split(',').nth(before + place)
+    }
+}
+
+/// The SI unit of a quantity of these runs, `%` for a share.
+pub(super) fn unit_of_quantity(name: &str, outcomes: &[&Outcome]) -> &'static str {
+    let known = QUANTITIES.iter().find(|known| known.name == name);
+    let is_there = |column: &str| {
+        let mut columns = outcomes.iter().flat_map(|outcome| outcome.effect_columns());
+        columns.any(|known| known == column)
+    };
+    match (known, name.strip_prefix(LAST)) {
+        (Some(quantity), _) => quantity.unit,
+        (None, Some(column)) => Effect::unit_of_column(column, is_there).unwrap_or_default(),
+        (None, None) => "",
     }
 }
 

@@ -12,8 +12,8 @@ const DECADES: f64 = 30.0;
 pub(super) fn picture(study: &Study, means: &Means) -> Figure {
     let points = || means.curves.iter().flat_map(|curve| &curve.points);
     let y = axis(
-        means.quantity.name,
-        means.quantity.unit,
+        &means.quantity,
+        means.unit,
         points().map(|point| point.mean),
     );
     let series = (means.curves.iter().enumerate())
@@ -38,7 +38,7 @@ pub(super) fn picture(study: &Study, means: &Means) -> Figure {
         note,
         names,
         panels: vec![Panel {
-            title: words(means.quantity.name),
+            title: words(&means.quantity),
             x: axis(
                 &means.x,
                 study.unit(&means.x),

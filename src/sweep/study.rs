@@ -9,7 +9,7 @@ use serde_json::json;
 use super::axis::{Axis, AxisTable};
 use super::cases::{Case, cases, value_at};
 use super::error::SweepError;
-use super::outcome::{QUANTITIES, written};
+use super::outcome::{quantity_names, written};
 use crate::scene::{Scene, SceneError, SceneErrors, unit_of};
 use crate::units::parse_any_quantity;
 
@@ -216,8 +216,8 @@ impl Study {
             return Err(wrong("series", reason));
         }
         match &self.plot.y {
-            Some(y) if !QUANTITIES.iter().any(|quantity| quantity.name == y) => {
-                let names = QUANTITIES.map(|quantity| quantity.name).join(", ");
+            Some(y) if !quantity_names().any(|name| name == *y) => {
+                let names = quantity_names().collect::<Vec<_>>().join(", ");
                 let reason = format!("{y} is not a quantity of a run; these are: {names}");
                 Err(wrong("y", reason))
             }
