@@ -12,10 +12,6 @@ use super::leakage::Axis;
 use super::reader::Reader;
 use crate::units::Dimension;
 
-fn is_default<T: Default + PartialEq>(value: &T) -> bool {
-    *value == T::default()
-}
-
 /// Declares the tables: their types, keys and reader, and how a summary shows them.
 macro_rules! tables {
     ($(
@@ -32,7 +28,6 @@ macro_rules! tables {
                 $( $(#[$key_doc])* pub $key: f64, )+
                 $(
                     $(#[$word_doc])*
-                    #[serde(skip_serializing_if = "is_default")]
                     pub $word: $Word,
                 )?
             }
@@ -139,5 +134,31 @@ tables! {
             /// Where it flows to.
             axis: Axis = "y"
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::scene::Scene;
+
+    fn scene(table: &str) -> String {
+        format!(
+            "[grid]\npoints = 8\nsize = 1e-6\n[solid]\ncontact_modulus = 1e9\n[[surface]]\nkind = \"flat\"\n\
+             [loading]\ncontrol = \"pressure\"\npath = [1e3]\n{table}\n"
+        )
+    }
+
+    /// A word that the scene leaves out is resolved, as other defaults are: a resumed run named a word of before as missing.
+    #[test]
+    fn words_that_are_left_out_are_resolved() {
+        let text = scene(
+            "[conductance]\nconductivity = 1\ncounter_conductivity = 1\n[leakage]\nviscosity = 1",
+        );
+        let found = Scene::parse(&text, "s.toml", Path::new("."), &[]).expect("a scene");
+        let resolved = found.resolved_json();
+        assert_eq!(resolved["conductance"]["kind"], "thermal");
+        assert_eq!(resolved["leakage"]["axis"], "x");
     }
 }
