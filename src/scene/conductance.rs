@@ -4,6 +4,7 @@ use super::SolidScene;
 use super::document::Value;
 use super::reader::Reader;
 use super::words::words;
+use crate::units::{Dimension, parse_quantity};
 
 words! {
     /// What a contact conducts.
@@ -25,6 +26,8 @@ impl Conduction {
             let Value::Text(text) = &table.node(key)?.value else {
                 return None;
             };
+            // A text that is a mistake, which is noted already, says nothing.
+            parse_quantity(text, Dimension::Conductivity).ok()?;
             let is_electrical = text.replace(' ', "").ends_with("S/m");
             let kind = if is_electrical {
                 Conduction::Electrical

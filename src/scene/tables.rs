@@ -161,4 +161,14 @@ mod tests {
         assert_eq!(resolved["conductance"]["kind"], "thermal");
         assert_eq!(resolved["leakage"]["axis"], "x");
     }
+
+    /// A unit that is wrong says nothing of what is conducted.
+    #[test]
+    fn a_wrong_unit_is_one_mistake() {
+        let text =
+            scene("[conductance]\nconductivity = \"60 W/m\"\ncounter_conductivity = \"1e7 S/m\"");
+        let errors = Scene::parse(&text, "s.toml", Path::new("."), &[]).expect_err("a unit");
+        assert_eq!(errors.0.len(), 1, "{errors}");
+        assert_eq!(errors.0[0].key, "conductance.conductivity");
+    }
 }
