@@ -1,14 +1,15 @@
 //! `tabor fit FOLDER`: all force curves of a folder, a table of what they give, and its histogram.
 
 use std::ffi::OsStr;
-use std::fs;
+use std::fs::{self, File};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 use rayon::prelude::*;
 
 use super::fit::FitArguments;
 use super::{Failure, say, warn};
-use crate::fit::{FitError, FitResult, figure, report, table as curve_table};
+use crate::fit::{FitError, FitResult, figure, report, table as curve_table, table_head};
 use crate::output::csv_line::{csv_line, csv_number};
 use crate::output::plot::{Axis, Figure, Panel, PlotPoint, Series};
 use crate::output::{GrowingTable, OutputError, expect_table, write_atomically};
@@ -110,14 +111,26 @@ fn curves(folder: &Path) -> Result<Vec<PathBuf>, OutputError> {
         let is_text = EXTENSIONS
             .iter()
             .any(|known| known.eq_ignore_ascii_case(extension));
-        let name = path.file_name().unwrap_or_default().to_string_lossy();
-        let is_own = name == TABLE || name.ends_with(OWN_TABLE);
-        if is_text && path.is_file() && !is_own {
+        if is_text && path.is_file() && !is_own(&path) {
             found.push(path);
         }
     }
     found.sort();
     Ok(found)
+}
+
+/// Whether a file has the name and the first line of a table that tabor writes. A curve may have the name.
+fn is_own(path: &Path) -> bool {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let head = match &*name {
+        TABLE => HEADER.to_owned(),
+        name if name.ends_with(OWN_TABLE) => table_head(),
+        _ => return false,
+    };
+    let mut begin = Vec::new();
+    let read =
+        File::open(path).and_then(|file| file.take(head.len() as u64).read_to_end(&mut begin));
+    read.is_ok() && begin == head.as_bytes()
 }
 
 /// `NAME.json`, `NAME.fit.csv` and `NAME.png` of a curve.

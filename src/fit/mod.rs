@@ -63,6 +63,8 @@ pub use model::Model;
 #[cfg(feature = "images")]
 pub use picture::figure;
 pub use relaxation::{Relaxation, fit_relaxation};
+#[cfg(feature = "cli")]
+pub(crate) use report::table_head;
 pub use report::{report, table};
 pub use request::FitRequest;
 #[doc(hidden)]

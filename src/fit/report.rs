@@ -110,12 +110,17 @@ const HEADER: [&str; 6] = [
     "interacting",
 ];
 
+/// First line of [`table()`].
+pub(crate) fn table_head() -> String {
+    csv_line(HEADER)
+}
+
 /// The curve with the fitted model, one row a point, SI: approach of the probe and position of the base of the
 /// cantilever (empty without a spring constant), both as measured.
 pub fn table(result: &FitResult) -> String {
     let fit = result.best();
     let slope = result.baseline_slope.map_or(0.0, |slope| slope.value);
-    let mut text = csv_line(HEADER);
+    let mut text = table_head();
     for segment in &result.measured.segments {
         for at in segment.points.clone() {
             let sample = result.measured.samples[at];
