@@ -43,6 +43,15 @@ impl CurveQuantity {
         }
     }
 
+    /// The one of a pair of which a curve needs one column.
+    fn kind(self) -> CurveQuantity {
+        match self {
+            CurveQuantity::Approach | CurveQuantity::Position => CurveQuantity::Approach,
+            CurveQuantity::Force | CurveQuantity::Deflection => CurveQuantity::Force,
+            CurveQuantity::Time => CurveQuantity::Time,
+        }
+    }
+
     fn dimension(self) -> Dimension {
         match self {
             CurveQuantity::Force => Dimension::Force,
@@ -148,6 +157,16 @@ impl Head<'_> {
         use CurveQuantity::{Approach, Deflection, Force, Position, Time};
         let first_of = |usual: CurveQuantity, other: CurveQuantity| {
             let column = match self.column(usual, how)? {
+        for (at, choice) in how.choices.iter().enumerate() {
+            let mut others = how.choices[..at].iter().map(|other| other.quantity);
+            if let Some(other) = others.find(|other| other.kind() == choice.quantity.kind()) {
+                return Err(FitError::TwoChoices {
+                    path: name(self.path),
+                    first: other.name(),
+                    second: choice.quantity.name(),
+                });
+            }
+        }
                 Some(column) => Some(column),
                 None => self.column(other, how)?,
             };
@@ -197,12 +216,7 @@ impl Head<'_> {
         let mut choices = how.choices.iter();
         let choice = choices.find(|choice| choice.quantity == quantity);
         // Where the other of a pair was chosen, a column that happens to have this name is not meant.
-        let kind = |quantity| match quantity {
-            CurveQuantity::Approach | CurveQuantity::Position => CurveQuantity::Approach,
-            CurveQuantity::Force | CurveQuantity::Deflection => CurveQuantity::Force,
-            CurveQuantity::Time => CurveQuantity::Time,
-        };
-        let has_other = |choice: &ColumnChoice| kind(choice.quantity) == kind(quantity);
+        let has_other = |choice: &ColumnChoice| choice.quantity.kind() == quantity.kind();
         if choice.is_none() && how.choices.iter().any(has_other) {
             return Ok(None);
         }

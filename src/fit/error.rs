@@ -112,6 +112,18 @@ pub enum FitError {
     )]
     NoSpring {
         /// The file.
+    /// Two columns are chosen for the same.
+    #[error(
+        "{path}: columns are chosen for {first} and for {second}, of which a curve has one; choose one of the two"
+    )]
+    TwoChoices {
+        /// The file.
+        path: String,
+        /// The quantity that is chosen first.
+        first: &'static str,
+        /// The other one.
+        second: &'static str,
+    },
         path: String,
         /// The column that needs it.
         column: &'static str,

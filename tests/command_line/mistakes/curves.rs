@@ -177,6 +177,18 @@ pub fn reached() -> Vec<Reached> {
             "the deflection is in volts; give its sensitivity",
         ),
         (
+            "TwoChoices",
+            "position=Z,deflection=Defl,force=F",
+            raw("1,2,3"),
+            "columns are chosen for deflection and for force, of which a curve has one; choose one of the two",
+        ),
+        (
+            "TwoChoices",
+            "approach=Z,force=F,position=Defl",
+            raw("1,2,3"),
+            "for approach and for position",
+        ),
+        (
             "NoSpring",
             "position=Z,force=F",
             raw("1,2,3"),
