@@ -129,6 +129,8 @@ pub(super) struct Columns {
     /// Force, or deflection.
     across: Column,
     time: Option<Column>,
+    /// Why a column of that name does not hold the time.
+    pub(super) no_time: Option<String>,
     spring: Option<f64>,
 }
 
@@ -155,8 +157,6 @@ impl Head<'_> {
     /// A column that is missing or there twice, a wrong unit, and a spring constant or a sensitivity that is needed.
     pub(super) fn columns(&self, how: &CurveColumns) -> Result<Columns, FitError> {
         use CurveQuantity::{Approach, Deflection, Force, Position, Time};
-        let first_of = |usual: CurveQuantity, other: CurveQuantity| {
-            let column = match self.column(usual, how)? {
         for (at, choice) in how.choices.iter().enumerate() {
             let mut others = how.choices[..at].iter().map(|other| other.quantity);
             if let Some(other) = others.find(|other| other.kind() == choice.quantity.kind()) {
@@ -167,6 +167,8 @@ impl Head<'_> {
                 });
             }
         }
+        let first_of = |usual: CurveQuantity, other: CurveQuantity| {
+            let column = match self.column(usual, how)? {
                 Some(column) => Some(column),
                 None => self.column(other, how)?,
             };
@@ -194,15 +196,16 @@ impl Head<'_> {
         }
         // A column of the name that holds something else, such as a date, is not asked for.
         let is_chosen = how.choices.iter().any(|choice| choice.quantity == Time);
-        let time = self.column(Time, how).or_else(
-            |error| {
-                if is_chosen { Err(error) } else { Ok(None) }
-            },
-        )?;
+        let (time, no_time) = match self.column(Time, how) {
+            Err(error) if is_chosen => return Err(error),
+            Err(error) => (None, Some(error.to_string())),
+            Ok(time) => (time, None),
+        };
         Ok(Columns {
             along,
             across,
             time,
+            no_time,
             spring: how.spring,
         })
     }

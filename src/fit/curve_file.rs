@@ -36,6 +36,8 @@ pub struct ForceCurve {
     pub unconverged: Vec<usize>,
     /// Time of each point, s; empty where it is not known.
     pub times: Vec<f64>,
+    /// Why a column of the name time is not read.
+    pub no_time: Option<String>,
     /// Spring constant of the cantilever, N/m, where it is known.
     pub spring: Option<f64>,
     /// Whether a sensitivity was given for a table without a deflection in volts.
@@ -149,6 +151,7 @@ impl ForceCurve {
         let mut curve = ForceCurve {
             spring,
             sensitivity_unused: sensitivity.is_some() && !columns.in_volts(),
+            no_time: columns.no_time.clone(),
             ..ForceCurve::default()
         };
         for (line, text) in head_row.into_iter().chain(lines) {

@@ -58,6 +58,12 @@ pub enum FitError {
         /// The file.
         path: String,
     },
+    /// The column of the time cannot be read.
+    #[error("{reason}; a relaxation time needs the time of each row")]
+    UnreadTime {
+        /// The message of the column.
+        reason: String,
+    },
     /// Too few points of loading in contact for a relaxation time.
     #[error("{path}: {points} points of loading in contact, too few for a relaxation time")]
     NoLoading {
@@ -106,12 +112,6 @@ pub enum FitError {
         /// The columns present.
         found: String,
     },
-    /// A spring constant is needed.
-    #[error(
-        "{path}: the {column} needs the spring constant of the cantilever to give approach and force"
-    )]
-    NoSpring {
-        /// The file.
     /// Two columns are chosen for the same.
     #[error(
         "{path}: columns are chosen for {first} and for {second}, of which a curve has one; choose one of the two"
@@ -124,6 +124,12 @@ pub enum FitError {
         /// The other one.
         second: &'static str,
     },
+    /// A spring constant is needed.
+    #[error(
+        "{path}: the {column} needs the spring constant of the cantilever to give approach and force"
+    )]
+    NoSpring {
+        /// The file.
         path: String,
         /// The column that needs it.
         column: &'static str,

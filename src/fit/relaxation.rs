@@ -87,7 +87,7 @@ impl fmt::Display for Relaxation {
 /// Fits a relaxation time to the loading of a curve whose elastic fit is `result`; `path` is for messages.
 ///
 /// # Errors
-/// Times that are missing or do not increase; too few points of loading in contact.
+/// Times that are missing, of another unit, or do not increase; too few points of loading in contact.
 pub fn fit_relaxation(
     curve: &ForceCurve,
     path: &Path,
@@ -111,6 +111,9 @@ pub fn fit_relaxation(
         .max_by(deeper)
         .ok_or_else(|| no_loading(0))?;
     let points = points.start..last + 1;
+    if let Some(reason) = curve.no_time.clone() {
+        return Err(FitError::UnreadTime { reason });
+    }
     let times = curve.times.get(points.clone()).unwrap_or_default();
     let increase = times.windows(2).all(|pair| pair[0] < pair[1]);
     if times.len() != points.len() || !increase || !times.iter().all(|time| time.is_finite()) {

@@ -285,6 +285,18 @@ pub fn reached() -> Vec<Reached> {
         reach(variant, &error);
     }
 
+    let in_hours = rows("time [h],approach,force", 40, |i| {
+        let force = (i.saturating_sub(10) as f64).powf(1.5);
+        format!("{i},{i}e-9,{force:e}")
+    });
+    fs::write(&path, in_hours).expect("written");
+    let hours = ForceCurve::read(&path).expect("a curve");
+    let result = fit_curve(&hours, &path, 1e-6, FREE).expect("a fit");
+    let error = fit_relaxation(&hours, &path, &result).expect_err("hours");
+    let expected = "line 1, column `time`: \"h\" is not a unit that is known here";
+    assert!(error.to_string().contains(expected), "{error}");
+    reach("UnreadTime", &error);
+
     let error = fit_curve(&curve, &path, -1.0, FREE).expect_err("no radius");
     assert!(matches!(error, FitError::Theory(_)), "{error}");
     reach("Theory", &error);
