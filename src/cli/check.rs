@@ -219,9 +219,15 @@ fn effects(plan: &Plan, cost: &Cost, verbose: bool) -> Result<Vec<String>, Failu
         ));
         lines.push(format!("              {}", effect.matters(plan)));
         let found = effect.cost(&plan.scene, cost, plan.outline.grid)?;
-        let sign = if found.bytes < 0 { "-" } else { "+" };
         let bytes = u64::try_from(found.bytes.unsigned_abs()).unwrap_or(u64::MAX);
-        lines.push(format!("              memory {sign}{}", mebibytes(bytes)));
+        let bytes = mebibytes(bytes);
+        // What rounds to nothing is neither more nor less.
+        let is_less = found.bytes < 0 && bytes != mebibytes(0);
+        lines.push(if is_less {
+            format!("              memory {bytes} less than without it")
+        } else {
+            format!("              memory +{bytes}")
+        });
         if verbose {
             lines.push(format!(
                 "              fields {}; kernels {}",

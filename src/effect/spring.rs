@@ -18,7 +18,7 @@ impl Hooks for Spring {
     }
 
     fn purpose(&self) -> &'static str {
-        "the approach is prescribed at the far end of a spring, so contacts snap in and off"
+        "the approach is prescribed at the far end of a spring"
     }
 
     fn is_on(&self, scene: &Scene) -> bool {
@@ -34,8 +34,13 @@ impl Hooks for Spring {
     }
 
     fn matters(&self, plan: &Plan) -> String {
+        let what = if plan.law.is_adhesive() {
+            "contacts snap in and off where the spring is softer than the attraction's gradient"
+        } else {
+            "gives as the contact does, and without adhesion no contact snaps"
+        };
         format!(
-            "snaps where the spring is softer than the attraction's gradient: here it has {:.2e} of the stiffness of a punch as wide as the grid",
+            "{what}: here it has {:.2e} of the stiffness of a punch as wide as the grid",
             relative_stiffness(plan)
         )
     }
