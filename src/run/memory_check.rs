@@ -30,7 +30,7 @@ pub enum MemoryError {
     /// A run on a grid that is too large.
     #[error(
         "grid.points: {} x {} points need {} of memory and there are {}; {}",
-        points[0], points[1], gibibytes(*needed), gibibytes(*available), smaller(*largest, *single, *available)
+        points[0], points[1], unlike(*needed, *available), unlike(*available, *needed), smaller(*largest, *single, *available)
     )]
     Grid {
         /// Points along x and y.
@@ -47,7 +47,7 @@ pub enum MemoryError {
     /// A run over several ranks on a grid that is too large.
     #[error(
         "grid.points: {} x {} points need {} of memory on each of {ranks} ranks, {here} of them on this machine, and there are {}; take fewer points, or fewer ranks a machine",
-        points[0], points[1], gibibytes(*needed), gibibytes(*available)
+        points[0], points[1], unlike(*needed, *available), unlike(*available, *needed)
     )]
     Ranks {
         /// Points along x and y.
@@ -63,7 +63,7 @@ pub enum MemoryError {
     },
     /// A height file that is longer than the memory.
     #[error(
-        "{}: {} of heights are more than the memory, {}; take a coarser map", path.display(), gibibytes(*length), gibibytes(*available)
+        "{}: {} of heights are more than the memory, {}; take a coarser map", path.display(), unlike(*length, *available), unlike(*available, *length)
     )]
     File {
         /// The file.
@@ -75,7 +75,7 @@ pub enum MemoryError {
     },
     /// A height map of too many points.
     #[error(
-        "{}: {} x {} points need {} of memory and there are {}; take a coarser map", path.display(), points[0], points[1], gibibytes(*needed), gibibytes(*available)
+        "{}: {} x {} points need {} of memory and there are {}; take a coarser map", path.display(), points[0], points[1], unlike(*needed, *available), unlike(*available, *needed)
     )]
     Map {
         /// The height file or the scene.
@@ -116,15 +116,21 @@ fn smaller(largest: Option<[usize; 2]>, single: Option<u64>, available: u64) -> 
     };
     match single {
         Some(needed) if needed <= available => {
-            format!("{fewer}, or {SINGLE_PRECISION} ({})", gibibytes(needed))
+            let needed = unlike(needed, available);
+            format!("{fewer}, or {SINGLE_PRECISION} ({needed})")
         }
         _ => fewer,
     }
 }
 
-/// Bytes for people.
-fn gibibytes(bytes: u64) -> String {
-    format!("{:.2} GiB", bytes as f64 / f64::from(1 << 30))
+/// Bytes for people, with as many digits as tell them from another number of bytes.
+fn unlike(bytes: u64, other: u64) -> String {
+    /// Digits that tell single bytes apart.
+    const MOST_DIGITS: usize = 10;
+    let text =
+        |bytes: u64, digits: usize| format!("{:.digits$} GiB", bytes as f64 / f64::from(1 << 30));
+    let differs = |digits: &usize| text(bytes, *digits) != text(other, *digits);
+    text(bytes, (2..=MOST_DIGITS).find(differs).unwrap_or(2))
 }
 
 /// Bytes that a run may take: what the machine has left, within the limits of its container and of its
@@ -299,4 +305,19 @@ pub(crate) fn check_map_of(
 /// Number of points.
 pub(crate) fn count(points: [usize; 2]) -> u64 {
     points[0] as u64 * points[1] as u64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A run was told to need 0.02 GiB where there are 0.02 GiB.
+    #[test]
+    fn amounts_have_digits_that_differ() {
+        assert_eq!(unlike(20_000_000, 1 << 30), "0.02 GiB");
+        assert_eq!(unlike(20_000_000, 19_000_000), "0.019 GiB");
+        assert_eq!(unlike(19_000_000, 20_000_000), "0.018 GiB");
+        assert_eq!(unlike(20_000_001, 20_000_000), "0.018626452 GiB");
+        assert_eq!(unlike(20_000_000, 20_000_000), "0.02 GiB");
+    }
 }
