@@ -497,6 +497,10 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
         );
     }
 
+    // 2 sigma0 dx/E*, with the tension of 100 kPa and pixels of 1.875 um.
+    let taper = "<th scope=\"row\">adhesion taper</th><td>auto, 375 nm<";
+    assert!(page.contains(taper), "{page}");
+
     // Without adhesion nothing attracts, and nothing is said of it.
     let plain = EFFECTS
         .split("[adhesion]")

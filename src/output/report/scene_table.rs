@@ -38,6 +38,14 @@ pub(super) fn html(setup: &Setup) -> Markup {
             }
         }
     }
+    for (key, length) in [("range", setup.law.range()), ("taper", setup.law.taper())] {
+        match shown.pointer_mut(&format!("/adhesion/{key}")) {
+            Some(value) if value == "auto" => {
+                *value = json!(format!("auto, {}", format_si(length, "m")));
+            }
+            _ => {}
+        }
+    }
     let path_unit = match setup.scene.loading.control {
         Control::Pressure => "Pa",
         Control::Force => "N",
