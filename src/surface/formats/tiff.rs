@@ -127,6 +127,9 @@ fn refuse_unread(image: &mut Image, is_float: bool) -> Result<(), FileError> {
     let shades = image.find_tag_unsigned(Tag::PhotometricInterpretation);
     if is_float && shades.map_err(broken)? == Some(PhotometricInterpretation::WhiteIsZero.to_u16())
     {
+/// The order of bits of which programs differ on whether it holds for pixels of whole bytes.
+const LOWEST_BIT_FIRST: u16 = 2;
+
         return Err(FileError::NotSupported {
             what: "TIFF images of heights in which 0 is white",
             instead: "save it with PhotometricInterpretation 1, BlackIsZero",
@@ -136,6 +139,13 @@ fn refuse_unread(image: &mut Image, is_float: bool) -> Result<(), FileError> {
 }
 
 /// The number of missing pixels that GDAL states, as the numbers of an image of so many bits are read.
+    let order: Option<u16> = image.find_tag_unsigned(Tag::FillOrder).map_err(broken)?;
+    if order == Some(LOWEST_BIT_FIRST) {
+        return Err(FileError::NotSupported {
+            what: "TIFF images whose bytes begin with the lowest bit (tag FillOrder)",
+            instead: "save it with FillOrder 1",
+        });
+    }
 fn missing_number(
     image: &mut Image,
     bits: u8,
@@ -500,3 +510,6 @@ mod tests {
         }
     }
 }
+        assert!(whole(&image(32, &floats, false, &[(266, &[1])])).is_ok());
+        let error = whole(&image(32, &floats, false, &[(266, &[2])])).unwrap_err();
+        assert!(error.to_string().contains("FillOrder"), "{error}");
