@@ -5,6 +5,7 @@
 use std::fs::File;
 use std::io::BufReader;
 
+use roxmltree::Document;
 use tiff::decoder::{ChunkType, Decoder, DecodingResult, Limits};
 use tiff::tags::{ByteOrder, CompressionMethod, PhotometricInterpretation, SampleFormat, Tag};
 use tiff::{ColorType, TiffError};
@@ -19,6 +20,9 @@ use crate::units::quoted;
 
 /// First bytes of a file: both byte orders, and files beyond 4 GiB.
 pub(super) const MAGIC: [&[u8]; 4] = [b"II*\0", b"MM\0*", b"II+\0", b"MM\0+"];
+
+/// The tag of GDAL's metadata, a text of XML.
+const GDAL_METADATA: u16 = 42112;
 
 /// Room for the decoder's own tables, bytes.
 const TABLES: usize = 1 << 20;
@@ -62,6 +66,7 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
     refuse_unread(&mut image, is_float)?;
     let mut warnings = Vec::new();
     let missing = missing_number(&mut image, bits, &mut warnings)?;
+    let line = scale_and_offset(&mut image, bits)?;
     if image.more_images() {
         warnings.push("the file holds several images; the first is read".to_owned());
     }
@@ -102,8 +107,15 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
             missing,
         })),
     };
+    let numbers = match line {
+        None => numbers,
+        Some(line) => Numbers::Rows(Box::new(Scaled {
+            rows: numbers.into_rows(),
+            line,
+        })),
+    };
     Ok(Matrix {
-        grey: !is_float,
+        grey: !is_float && line.is_none(),
         warnings,
         ..Matrix::new(numbers, shape)
     })
@@ -115,6 +127,9 @@ type Image = Decoder<BufReader<Stream>>;
 /// counts as this one.
 const UPRIGHT: u16 = 1;
 
+/// The order of bits of which programs differ on whether it holds for pixels of whole bytes.
+const LOWEST_BIT_FIRST: u16 = 2;
+
 /// Refuses what would change heights, or their places, and is not read.
 fn refuse_unread(image: &mut Image, is_float: bool) -> Result<(), FileError> {
     let orientation: Option<u16> = image.find_tag_unsigned(Tag::Orientation).map_err(broken)?;
@@ -124,12 +139,16 @@ fn refuse_unread(image: &mut Image, is_float: bool) -> Result<(), FileError> {
             instead: "save it upright, with Orientation 1",
         });
     }
+    let order: Option<u16> = image.find_tag_unsigned(Tag::FillOrder).map_err(broken)?;
+    if order == Some(LOWEST_BIT_FIRST) {
+        return Err(FileError::NotSupported {
+            what: "TIFF images whose bytes begin with the lowest bit (tag FillOrder)",
+            instead: "save it with FillOrder 1",
+        });
+    }
     let shades = image.find_tag_unsigned(Tag::PhotometricInterpretation);
     if is_float && shades.map_err(broken)? == Some(PhotometricInterpretation::WhiteIsZero.to_u16())
     {
-/// The order of bits of which programs differ on whether it holds for pixels of whole bytes.
-const LOWEST_BIT_FIRST: u16 = 2;
-
         return Err(FileError::NotSupported {
             what: "TIFF images of heights in which 0 is white",
             instead: "save it with PhotometricInterpretation 1, BlackIsZero",
@@ -139,13 +158,6 @@ const LOWEST_BIT_FIRST: u16 = 2;
 }
 
 /// The number of missing pixels that GDAL states, as the numbers of an image of so many bits are read.
-    let order: Option<u16> = image.find_tag_unsigned(Tag::FillOrder).map_err(broken)?;
-    if order == Some(LOWEST_BIT_FIRST) {
-        return Err(FileError::NotSupported {
-            what: "TIFF images whose bytes begin with the lowest bit (tag FillOrder)",
-            instead: "save it with FillOrder 1",
-        });
-    }
 fn missing_number(
     image: &mut Image,
     bits: u8,
@@ -173,13 +185,72 @@ fn missing_number(
         }
         _ => return Ok(Some(number)),
     };
-    let shades: Option<u16> = image
-        .find_tag_unsigned(Tag::PhotometricInterpretation)
-        .map_err(broken)?;
-    let is_inverted = shades == Some(PhotometricInterpretation::WhiteIsZero.to_u16());
+    let is_inverted = is_inverted(image)?;
     Ok(Some(
         if is_inverted { white - number } else { number } / white,
     ))
+}
+
+/// Whether 0 is white.
+fn is_inverted(image: &mut Image) -> Result<bool, FileError> {
+    let shades: Option<u16> = image
+        .find_tag_unsigned(Tag::PhotometricInterpretation)
+        .map_err(broken)?;
+    Ok(shades == Some(PhotometricInterpretation::WhiteIsZero.to_u16()))
+}
+
+/// Factor and summand that make heights of the numbers of an image of so many bits, as they are read, by the scale and the offset that
+/// GDAL states; `None` without either.
+fn scale_and_offset(image: &mut Image, bits: u8) -> Result<Option<[f64; 2]>, FileError> {
+    let tag = Tag::Unknown(GDAL_METADATA);
+    let Some(value) = image.find_tag(tag).map_err(broken)? else {
+        return Ok(None);
+    };
+    let text = value.into_string().map_err(broken)?;
+    let Ok(document) = Document::parse(text.trim_matches('\0')) else {
+        return Ok(None);
+    };
+    let number = |role: &str| {
+        let mut items = document.descendants();
+        let item = items.find(|item| {
+            let is_first = item.attribute("sample").is_none_or(|sample| sample == "0");
+            item.attribute("role") == Some(role) && is_first
+        });
+        let number: f64 = item?.text()?.trim().parse().ok()?;
+        number.is_finite().then_some(number)
+    };
+    let (scale, offset) = match (number("scale"), number("offset")) {
+        (None, None) => return Ok(None),
+        (scale, offset) => (scale.unwrap_or(1.0), offset.unwrap_or(0.0)),
+    };
+    // Shades are read from 0 to 1.
+    let white: f64 = match bits {
+        8 => u8::MAX.into(),
+        16 => u16::MAX.into(),
+        _ => return Ok(Some([scale, offset])),
+    };
+    Ok(Some(if is_inverted(image)? {
+        [-white * scale, white * scale + offset]
+    } else {
+        [white * scale, offset]
+    }))
+}
+
+/// Numbers times a factor, and a summand.
+struct Scaled {
+    rows: Box<dyn NumberRows>,
+    line: [f64; 2],
+}
+
+impl NumberRows for Scaled {
+    fn next(&mut self, values: &mut [f64]) -> Result<(), FileError> {
+        self.rows.next(values)?;
+        let [factor, summand] = self.line;
+        for value in values {
+            *value = factor * *value + summand;
+        }
+        Ok(())
+    }
 }
 
 /// Numbers of which one value is missing.
@@ -486,6 +557,37 @@ mod tests {
         assert!(whole(&image(32, &floats, false, &[(274, &[1])])).is_ok());
         let error = whole(&image(32, &floats, false, &[(274, &[4])])).unwrap_err();
         assert!(error.to_string().contains("Orientation"), "{error}");
+        assert!(whole(&image(32, &floats, false, &[(266, &[1])])).is_ok());
+        let error = whole(&image(32, &floats, false, &[(266, &[2])])).unwrap_err();
+        assert!(error.to_string().contains("FillOrder"), "{error}");
+    }
+
+    /// Scale and offset, as GDAL writes them, were left out. A missing number is one before them.
+    #[test]
+    fn gdal_scale_and_offset_are_applied() {
+        let text =
+            b"<GDALMetadata>\n  <Item name=\"OFFSET\" sample=\"0\" role=\"offset\">-10</Item>\n  \
+            <Item name=\"SCALE\" sample=\"0\" role=\"scale\">0.5</Item>\n</GDALMetadata>\n\0";
+        let missing: (u16, &[u8]) = (42113, b"-9999\0");
+        let floats = [1.0_f32, -9999.0, 3.5, 4.0, 5.0, -6.0].map(f32::to_le_bytes);
+        let floats = floats.as_flattened();
+        let found = whole(&image(32, floats, false, &[missing, (42112, text)])).unwrap();
+        assert!(found.values[1].is_nan() && found.values[0] == -9.5);
+        assert_eq!(found.values[2..], [-8.25, -8.0, -7.5, -13.0]);
+        // Of whole numbers they make heights, also where 0 is white.
+        for is_white_zero in [false, true] {
+            let shades = [0, 51, 200, 102, 255, 1];
+            let found = whole(&image(8, &shades, is_white_zero, &[(42112, text)])).unwrap();
+            assert!(!found.grey);
+            for (value, shade) in found.values.iter().zip(shades) {
+                // Rounding of shades of 1/255 and of 100 units.
+                assert!((value - (0.5 * f64::from(shade) - 10.0)).abs() < 1e-12);
+            }
+        }
+        // Other metadata change nothing.
+        let text = b"<GDALMetadata><Item name=\"a\">2</Item></GDALMetadata>\0";
+        let found = whole(&image(32, floats, false, &[(42112, text)])).unwrap();
+        assert_eq!(found.values[0], 1.0);
     }
 
     proptest! {
@@ -510,6 +612,3 @@ mod tests {
         }
     }
 }
-        assert!(whole(&image(32, &floats, false, &[(266, &[1])])).is_ok());
-        let error = whole(&image(32, &floats, false, &[(266, &[2])])).unwrap_err();
-        assert!(error.to_string().contains("FillOrder"), "{error}");
