@@ -156,6 +156,12 @@ fn read_header(file: &mut impl Read) -> Result<Vec<u8>, FileError> {
     header.resize(start + text_length, 0);
     take(&mut header, start)?;
 
+    // Python 2 writes long integers with their mark: (3L, 4L).
+    for at in start + 1..header.len() {
+        if header[at] == b'L' && header[at - 1].is_ascii_digit() {
+            header[at] = b' ';
+        }
+    }
     let text = &header[start..];
     let plain =
         |byte: &u8| byte.is_ascii_alphanumeric() || b"_'\"{}()[],:<>|=- \t\r\n".contains(byte);
@@ -219,6 +225,17 @@ mod tests {
         let matrix = read(Bytes::held(bytes)).and_then(Map::read).unwrap();
         assert_eq!((matrix.rows, matrix.columns), (2, 2));
         assert_eq!(matrix.values, [1.0, 3.0, 2.0, -1.0]);
+    }
+
+    /// Python 2 marks long integers.
+    #[test]
+    fn shapes_of_python_2_are_read() {
+        let header = b"{'descr': '<i2', 'fortran_order': False, 'shape': (2L, 3L)}\n";
+        let elements = [1, 0, 2, 0, 3, 0, 4, 0, 5, 0, 6, 0];
+        let bytes = file(header, &elements);
+        let matrix = read(Bytes::held(bytes)).and_then(Map::read).unwrap();
+        assert_eq!((matrix.rows, matrix.columns), (2, 3));
+        assert_eq!(matrix.values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     }
 
     /// Rows that are read alone are those of the whole, in every order of rows and bytes.
