@@ -544,6 +544,8 @@ fn bad_files_are_refused_in_a_sentence() {
         ("cut.dat", zygo[..zygo.len() - 1].to_vec(), "9 rows of 12 columns need 432 bytes, there are 431"),
         ("wave.opd", with(&opd, b"Wavelength", b"Wavelangth"), "it has no block of heights, or no wavelength"),
         ("cut.opd", opd[..100].to_vec(), "broken .opd file at byte 100: the file ends within the directory"),
+        ("short.opd", patched(&opd, 44, &[3]), "broken .opd file at byte 170: its block Wavelength has 3 bytes of 4 at least"),
+        ("heights.opd", patched(&opd, 116, &[0]), "its block Raw has 256 bytes, and 12 x 9 heights take 438"),
         ("kind.plu", patched(&plu, 428, &[1]), "a measurement of kind 1; 3 is a topography"),
         ("pixel.plu", patched(&plu, 404, &[0; 4]), "broken .plu file at byte 404: pixels of 0 x"),
         ("heights.vk4", patched(&vk4, 36, &[0; 4]), "broken .vk4 file at byte 36: it holds no heights"),

@@ -17,6 +17,9 @@ const NAME: usize = 16;
 /// Names of blocks of heights.
 const HEIGHTS: [&str; 4] = ["RAW DATA", "RAW_DATA", "OPD", "Raw"];
 
+/// Bytes before the heights of a block: columns, rows and bytes of a number.
+const HEIGHTS_HEADER: usize = 6;
+
 /// Numbers from here on are missing heights: in 16 bits, and in single precision.
 const MISSING_INTEGER: i16 = 32766;
 const MISSING: f32 = 1e38;
@@ -35,17 +38,28 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     for (name, length) in blocks.iter().filter(|(_, length)| *length > 0) {
         let start = file.offset();
         let what = "a block";
+        let is_heights = HEIGHTS.contains(&name.as_str());
+        let least = match name.as_str() {
+            "Wavelength" | "Aspect" | "Pixel_size" => 4,
+            "Mult" => 2,
+            _ if is_heights => HEIGHTS_HEADER,
+            _ => 0,
+        };
+        if *length < least {
+            let what = format!("its block {name} has {length} bytes of {least} at least");
+            return Err(file.broken(start, what));
+        }
         match name.as_str() {
             "Wavelength" => wavelength = Some(f64::from(file.f32(what)?)),
             "Mult" => multiplier = f64::from(file.u16(what)?),
             "Aspect" => aspect = f64::from(file.f32(what)?),
             "Pixel_size" => pixel = Some(f64::from(file.f32(what)?)),
-            name if HEIGHTS.contains(&name) && heights.is_none() => heights = Some(start),
+            _ if is_heights && heights.is_none() => heights = Some((start, name, *length)),
             _ => {}
         }
         file.seek(start.saturating_add(*length), "the next block")?;
     }
-    let (Some(start), Some(wavelength)) = (heights, wavelength) else {
+    let (Some((start, name, length)), Some(wavelength)) = (heights, wavelength) else {
         return Err(file.broken(0, "it has no block of heights, or no wavelength"));
     };
     file.seek(start, "the heights")?;
@@ -55,6 +69,13 @@ pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let bytes_of_a_number = file.u16("the bytes of a number")?;
     let shape = checked_shape(rows.into(), columns.into())?;
     let [rows, columns] = shape;
+    let needed = HEIGHTS_HEADER + rows * columns * usize::from(bytes_of_a_number);
+    if length < needed {
+        let what = format!(
+            "its block {name} has {length} bytes, and {columns} x {rows} heights take {needed}"
+        );
+        return Err(file.broken(start, what));
+    }
     // Heights in nm; a column is stored at a time.
     let step = 1e-9 * wavelength / multiplier;
     let values = match bytes_of_a_number {
