@@ -33,7 +33,7 @@ pub(super) const CONTACT_AIC: f64 = 20.0;
 /// If the greatest tension lies within this share of the approach at its closest end, a curve
 /// without compression shows no contact.
 const CLOSEST: f64 = 0.05;
-/// Noises above a baseline with a slope, and share of the range of the forces as measured, that a force of compression exceeds.
+/// Noises beside a baseline with a slope, and share of the range of the forces as measured, that a force of compression or tension exceeds.
 const PRESSED_NOISES: f64 = 5.0;
 const PRESSED_SHARE: f64 = 1e-9;
 /// Most iterations of model choice and Tabor number.
@@ -134,6 +134,9 @@ pub fn fit_curve(
     // If the baseline is fitted but not measured, tension may be an offset.
     let zero_known = knows_zero(&measured, &fits[chosen]);
     let baseline_slope = if freedom.baseline_slope {
+        if !zero_known && !shows_contact {
+            return Err(FitError::NoContact { path: name(path) });
+        }
         if !zero_known {
             return Err(FitError::NoBaseline {
                 path: name(path),
@@ -165,16 +168,24 @@ pub fn fit_curve(
         fits[chosen].parameters.force_offset,
     ));
     let stiff = fits[chosen].parameters.contact_modulus;
-    let (least, _) = measured.extremes();
-    let pressed = is_pressed(curve, &measured, &fits);
+    let (least, greatest) = measured.extremes();
+    let baseline = measured.baseline();
+    let exceeds = |force: f64| exceeds_noise(force, curve, &measured, &fits);
+    let pressed = exceeds(greatest.force - baseline);
     // If the tension grows up to the closest point there may be attraction without contact.
     let grows = measured.closest() - least.approach < CLOSEST * measured.approach_span;
     let uncertain = modulus_uncertainty.is_none_or(|deviation| deviation > UNCERTAIN * stiff);
-    if uncertain && !shows_contact {
+    // A slope may take any part of a force, so that a modulus is known which is not there.
+    if (uncertain || freedom.baseline_slope) && !shows_contact {
         return Err(FitError::NoContact { path: name(path) });
     }
     if !pressed && (grows || uncertain) {
-        return Err(FitError::NoCompression { path: name(path) });
+        let path = name(path);
+        return Err(if shows_contact && exceeds(baseline - least.force) {
+            FitError::NoCompression { path }
+        } else {
+            FitError::NoContact { path }
+        });
     }
     let general = fits.iter().find(|fit| fit.model == Model::MaugisDugdale);
     let tabor_uncertainty = general.and_then(tabor_deviation);
@@ -247,12 +258,11 @@ fn free_points(fit: &ModelFit) -> usize {
     free.count()
 }
 
-/// Whether the greatest force is one of compression. A straight line that is taken out as the slope of the baseline leaves noise and
-/// rounding alone.
-fn is_pressed(curve: &ForceCurve, measured: &Measured, fits: &[ModelFit]) -> bool {
-    let above = measured.extremes().1.force - measured.baseline();
+/// Whether a force on one side of the baseline is more than noise. A straight line that is taken out as the slope of the baseline
+/// leaves noise and rounding alone.
+fn exceeds_noise(force: f64, curve: &ForceCurve, measured: &Measured, fits: &[ModelFit]) -> bool {
     if !measured.freedom.baseline_slope {
-        return above > 0.0;
+        return force > 0.0;
     }
     let noise = fits
         .iter()
@@ -260,7 +270,7 @@ fn is_pressed(curve: &ForceCurve, measured: &Measured, fits: &[ModelFit]) -> boo
         .fold(f64::INFINITY, f64::min);
     let forces = || curve.samples.iter().map(|sample| sample.force);
     let span = forces().fold(f64::NEG_INFINITY, f64::max) - forces().fold(f64::INFINITY, f64::min);
-    above > (PRESSED_NOISES * noise).max(PRESSED_SHARE * span)
+    force > (PRESSED_NOISES * noise).max(PRESSED_SHARE * span)
 }
 
 /// The chosen model and the Tabor number it implies.

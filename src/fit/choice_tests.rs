@@ -55,6 +55,7 @@ fn noise_alone_is_no_contact() {
         let freedom = Freedom {
             approach_offset: true,
             force_offset: seed % 2 == 1,
+            baseline_slope: seed == 3,
             ..AT_ZERO
         };
         let found = fitted(&curve, freedom);

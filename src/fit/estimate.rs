@@ -410,18 +410,29 @@ fn aic(sum: f64, points: usize, free: usize) -> f64 {
     points as f64 * (sum / points as f64).ln() + 2.0 * (free + 1) as f64
 }
 
-/// The same where no contact is: of a level baseline alone.
+/// The same where no contact is: of a baseline alone, which is level but for the freedom of its slope.
 pub(super) fn aic_of_baseline(measured: &Measured) -> f64 {
     let points = measured.samples.len();
     let has_offset = measured.freedom.force_offset;
-    let forces = || measured.samples.iter().map(|sample| sample.force);
+    let has_slope = measured.freedom.baseline_slope;
+    let samples = || measured.samples.iter();
     let level = if has_offset {
-        forces().sum::<f64>() / points as f64
+        samples().map(|sample| sample.force).sum::<f64>() / points as f64
     } else {
         0.0
     };
-    let over_span = |force: f64| ((force - level) / measured.force_span).powi(2);
-    aic(forces().map(over_span).sum(), points, has_offset.into())
+    let place = |sample: &Sample| sample.approach - measured.middle;
+    let slope = if has_slope {
+        let products = samples().map(|sample| place(sample) * (sample.force - level));
+        products.sum::<f64>() / samples().map(|sample| place(sample).powi(2)).sum::<f64>()
+    } else {
+        0.0
+    };
+    let over_span = |sample: &Sample| {
+        ((sample.force - level - slope * place(sample)) / measured.force_span).powi(2)
+    };
+    let free = usize::from(has_offset) + usize::from(has_slope);
+    aic(samples().map(over_span).sum(), points, free)
 }
 
 /// Numbers and their uncertainties at a minimum.
