@@ -11,6 +11,7 @@ use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::{Freedom, Measured};
 use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
 use super::profile::{MOST_RISE, ProfilePoint, widen};
+use super::segments::Segment;
 use super::start::{beside_the_fold, scale_grid, starts};
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
@@ -31,6 +32,9 @@ const GRID_STARTS: usize = 3;
 /// Most moves from one basin to the next, and the share by which the next must lie lower.
 const MOST_BASINS: usize = 8;
 const LOWER: f64 = 1e-6;
+/// Free numbers that a transition counts for in Akaike's criterion, whose place is chosen among all points (Ninomiya 2015,
+/// doi:10.1007/s10463-014-0481-x).
+const TRANSITION: usize = 3;
 /// Least sum of squares with which a fit is credited, in squares of the force range a point. Below
 /// it are rounding and interpolation errors.
 const FLOOR: f64 = 1e-14;
@@ -463,6 +467,13 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         .map(|(sample, residual)| sample.force + residual * span)
         .collect();
     let floor = sum.max(FLOOR * points as f64);
+    // Without a slope all models have transitions, which then do not distinguish them.
+    let is_counted = search.tip.model.adheres() && measured.freedom.baseline_slope;
+    let has_transition = |segment: &&Segment| {
+        let mut points = segment.points.clone();
+        is_counted && points.any(|i| interacting.get(i) == Some(&false))
+    };
+    let transitions = measured.segments.iter().filter(has_transition).count();
     ModelFit {
         model: search.tip.model,
         parameters,
@@ -472,7 +483,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         sum_of_squares: sum * span * span,
         degrees_of_freedom: degrees,
         free,
-        aic: aic(floor, points, free),
+        aic: aic(floor, points, free + TRANSITION * transitions),
         noise: (sum / degrees as f64).sqrt() * span,
         autocorrelation,
         fitted,
