@@ -1,4 +1,4 @@
-//! The folder of a run: who may write where, and files that appear whole or not at all.
+//! The folder of a run: who may write where.
 
 use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
@@ -10,10 +10,9 @@ use serde::{Deserialize, Serialize};
 use super::difference::difference;
 use super::error::OutputError;
 use super::lock::FolderLock;
+use super::whole_file::{UNFINISHED, crash_point, replace, write_atomically};
 use crate::scene::FieldName;
 
-/// End of the names under which files are written before they are renamed.
-const UNFINISHED: &str = ".tabor-unfinished";
 /// Folders within that of a run.
 const PARTS: [&str; 3] = ["images", "fields", "state"];
 
@@ -326,14 +325,6 @@ pub(crate) fn files_of_fields(folder: &Path, extension: &str) -> Vec<(usize, Fie
         .collect()
 }
 
-/// The hidden file that becomes `path` once it is whole.
-pub(crate) fn hidden_file(path: &Path) -> PathBuf {
-    let mut name = std::ffi::OsString::from(".");
-    name.push(path.file_name().unwrap_or_default());
-    name.push(UNFINISHED);
-    path.with_file_name(name)
-}
-
 /// The step and the index of the field in `step_DIGITS_FIELD` or `step_DIGITS`.
 fn step_and_field(stem: &str) -> Option<(usize, Option<usize>)> {
     let rest = stem.strip_prefix("step_")?;
@@ -377,54 +368,6 @@ fn remove_files(folder: &Path, own: impl Fn(&str, bool) -> bool) -> Result<(), O
     Ok(())
 }
 
-/// Gives the file at `path` the first free name of `NAME.before`, `NAME.before2` and so on, which no run
-/// removes, and returns it.
-pub fn set_aside(path: &Path) -> Result<PathBuf, OutputError> {
-    let named = |count: usize| {
-        let mut name = path.as_os_str().to_owned();
-        name.push(match count {
-            1 => ".before".to_owned(),
-            more => format!(".before{more}"),
-        });
-        PathBuf::from(name)
-    };
-    let free = (1..)
-        .map(named)
-        .find(|name| fs::symlink_metadata(name).is_err())
-        .expect("names do not run out");
-    crash_point();
-    fs::rename(path, &free).map_err(OutputError::write("move away", path))?;
-    Ok(free)
-}
-
-/// Where a kill would find a folder between two of its changes. Ends the process there if the environment asks
-/// for it: `TABOR_TEST_CRASH`, for tests, is the number of changes that are still made.
-#[cfg(feature = "fault-injection")]
-fn crash_point() {
-    use std::sync::atomic::{AtomicU64, Ordering};
-    static MADE: AtomicU64 = AtomicU64::new(0);
-    let made = MADE.fetch_add(1, Ordering::Relaxed);
-    let asked = std::env::var("TABOR_TEST_CRASH").unwrap_or_default();
-    if asked.parse() == Ok(made) {
-        std::process::abort();
-    }
-}
-
-#[cfg(not(feature = "fault-injection"))]
-fn crash_point() {}
-
-/// Writes `bytes` to `path` so that a reader finds the old file or the new one, never half of it.
-///
-/// Folders on the way are created. The bytes go to a hidden file beside it, are synced to the
-/// disk, and take the name last.
-pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
-    let folder = path.parent().unwrap_or(Path::new(""));
-    if !folder.as_os_str().is_empty() {
-        fs::create_dir_all(folder).map_err(OutputError::write("create the folder", folder))?;
-    }
-    replace(path, |file| file.write_all(bytes))
-}
-
 /// As [`write_atomically`] into the folder of a run, which is there or was taken away: only a folder
 /// within it is created, so that no half of a run is created again.
 pub fn write_within(path: &Path, bytes: &[u8]) -> Result<(), OutputError> {
@@ -447,31 +390,6 @@ pub fn stream_within(
         }
     }
     replace(path, content)
-}
-
-/// Puts `content` into a hidden file of the folder, which then takes the name.
-fn replace(
-    path: &Path,
-    content: impl FnOnce(&mut BufWriter<File>) -> io::Result<()>,
-) -> Result<(), OutputError> {
-    let hidden = hidden_file(path);
-    let written = File::create(&hidden)
-        .and_then(|file| {
-            let mut file = BufWriter::new(file);
-            content(&mut file)?;
-            file.into_inner()
-                .map_err(io::IntoInnerError::into_error)?
-                .sync_all()
-        })
-        .and_then(|()| {
-            crash_point();
-            fs::rename(&hidden, path)
-        });
-    if written.is_err() {
-        // Best effort: the failure to report is the first one.
-        let _ = fs::remove_file(&hidden);
-    }
-    written.map_err(OutputError::write("write", path))
 }
 
 #[cfg(test)]
@@ -514,17 +432,6 @@ mod tests {
         let lock = fs::read(place.path().join("state/lock")).unwrap();
         assert!(lock.is_empty(), "nobody holds it");
         RunFolder::open(place.path(), "one").unwrap();
-    }
-
-    #[test]
-    fn renamed_files_replace_no_other() {
-        let place = tempfile::tempdir().unwrap();
-        let path = place.path().join("curve.csv");
-        for name in ["curve.csv.before", "curve.csv.before2", "curve.csv.before3"] {
-            touch(&path);
-            assert_eq!(set_aside(&path).unwrap(), place.path().join(name));
-        }
-        assert!(set_aside(&path).is_err());
     }
 
     #[test]
@@ -625,16 +532,5 @@ mod tests {
         for (name, step) in cases {
             assert_eq!(step_of(name), step, "{name}");
         }
-    }
-
-    #[test]
-    fn a_failed_write_leaves_no_trace() {
-        let place = tempfile::tempdir().unwrap();
-        let path = place.path().join("taken");
-        touch(&path.join("inside"));
-        // A folder that is not empty cannot be replaced by a file.
-        let outcome = write_atomically(&path, b"new");
-        assert!(matches!(outcome, Err(OutputError::Write { .. })));
-        assert_eq!(fs::read_dir(place.path()).unwrap().count(), 1);
     }
 }

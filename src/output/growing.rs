@@ -5,7 +5,8 @@ use std::io::{self, Write as _};
 use std::path::{Path, PathBuf};
 
 use super::error::OutputError;
-use super::folder::{set_aside, write_within};
+use super::folder::write_within;
+use super::whole_file::set_aside;
 
 /// A file that grows by whole lines, with its text in memory.
 #[derive(Debug)]

@@ -53,6 +53,7 @@ mod target;
 mod visible;
 #[doc(hidden)]
 pub mod volume;
+mod whole_file;
 
 #[cfg(feature = "images")]
 #[doc(hidden)]
@@ -70,7 +71,7 @@ pub use fields::FieldRows;
 pub(crate) use fields::write_field_rows;
 pub use fields::{write_field, write_field_single};
 #[doc(hidden)]
-pub use folder::{RunFolder, set_aside, write_atomically, write_within};
+pub use folder::{RunFolder, write_within};
 #[doc(hidden)]
 pub use growing::GrowingTable;
 #[doc(hidden)]
@@ -99,5 +100,6 @@ pub use visible::{visible, visible_line};
 pub use volume::RowsOf;
 #[doc(hidden)]
 pub use volume::write_volume;
+pub use whole_file::{set_aside, write_atomically};
 
 pub use crate::study::Column;

@@ -14,8 +14,9 @@ use serde_json::Value;
 
 use super::curve;
 use super::error::OutputError;
-use super::folder::{files_of_fields, hidden_file};
+use super::folder::files_of_fields;
 use super::target::expect_apart;
+use super::whole_file::hidden_file;
 use crate::scene::FieldName;
 
 /// Conventions that the file keeps.

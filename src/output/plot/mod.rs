@@ -14,8 +14,8 @@ use noto_sans_mono_bitmap::{FontWeight, RasterHeight};
 
 use super::canvas::{self, Font, HEADING, TEXT};
 use super::error::OutputError;
-use super::folder::write_atomically;
 use super::palette::Rgb;
+use super::whole_file::write_atomically;
 pub use curves::run_figure;
 pub use scale::Axis;
 

@@ -29,6 +29,8 @@ mod text;
 #[cfg(feature = "images")]
 mod tiff;
 #[cfg(feature = "images")]
+mod tiff_gdal;
+#[cfg(feature = "images")]
 mod tiff_streams;
 mod unordered;
 mod vk4;
