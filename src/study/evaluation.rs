@@ -196,7 +196,7 @@ impl Evaluation {
                 * net_pressure(support, *pressure + solved.held, traction, problem.hardness);
             if closed {
                 *point = PointState::Contact;
-            } else if g < law.range() {
+            } else if g < law.range() && pulling(i) > 0.0 {
                 *point = PointState::Attracted;
             }
             *gap = g * scales.length;

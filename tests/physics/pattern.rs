@@ -41,6 +41,17 @@ fn uniform_maps() {
     }
 }
 
+/// Points whose factor is 0 are within the range and not attracted.
+fn points_without_attraction_are_not_attracted() {
+    let solved = solve_table(&format!(
+        "[grid]\npoints = 16\nsize = 1.0\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"flat\"\n{}\n\
+         [loading]\ncontrol = \"mean-gap\"\npath = [1e-3]\n",
+        mapped("maugis-dugdale", 2e-5, 0.0, 1.0)
+    ));
+    let row = solved.rows().next().expect("a row");
+    assert_eq!(row.attractive_area_fraction, 0.5);
+}
+
 /// A flat solid within the range of stripes: the tension is the pattern itself, the same whatever
 /// the gap, and each wave of it lifts the surface by its own compliance.
 fn stripes_lift_a_flat_surface() {
@@ -138,6 +149,7 @@ fn a_map_changes_what_it_covers() {
 
 tests![
     uniform_maps,
+    points_without_attraction_are_not_attracted,
     stripes_lift_a_flat_surface,
     a_map_changes_what_it_covers,
 ];
