@@ -497,8 +497,8 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
         );
     }
 
-    // 2 sigma0 dx/E*, with the tension of 100 kPa and pixels of 1.875 um.
-    let taper = "<th scope=\"row\">adhesion taper</th><td>auto, 375 nm<";
+    // 6 sigma0 dx/E*, with the tension of 100 kPa and pixels of 1.875 um, are 1.125 um, and twice the range is the most.
+    let taper = "<th scope=\"row\">adhesion taper</th><td>auto, 1 µm<";
     assert!(page.contains(taper), "{page}");
 
     // Without adhesion nothing attracts, and nothing is said of it.

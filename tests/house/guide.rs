@@ -281,6 +281,7 @@ fn every_key_of_a_scene_is_explained() {
     // Declared tables: `name: Type {` opens one, and `key: Dimension = "value",` is a key of it.
     let source = read("src/scene/tables.rs");
     let (_, declared) = source.split_once("\ntables! {").expect("declarations");
+    let (declared, _) = declared.split_once("\n}\n").expect("an end");
     let lines = declared.lines().map(str::trim);
     for line in lines.filter(|line| !line.starts_with("//")) {
         let Some((name, rest)) = line.split_once(": ") else {
