@@ -1,13 +1,14 @@
 //! Compares widths of the Maugis-Dugdale taper: the table of `docs/solver.md`.
 //!
 //! `cargo run --release --example taper_study` solves waves whose contact edges lie along, across
-//! and oblique to the grid, spheres and a rough surface with tapers of 2 to 8 `sigma0 dx/E*` (no
+//! and oblique to the grid, spheres, a rough surface and smoother ones with tapers of 2 to 8 `sigma0 dx/E*` (no
 //! wider than twice the range, or, for comparison, than the range), compares them with closed
 //! forms, and prints the table: some minutes on two cores, a case on each. With names behind `--`
-//! (`strip`, `sphere`, `rough`) it prints only those parts.
+//! (`strip`, `sphere`, `rough`, `smooth`) it prints only those parts.
 
 mod rough;
 mod run;
+mod smooth;
 mod spheres;
 mod strips;
 
@@ -62,10 +63,15 @@ pub struct Part {
 
 fn main() -> Result<(), Failure> {
     let asked: Vec<String> = std::env::args().skip(1).collect();
-    let parts: Vec<Part> = [rough::part()?, strips::part(), spheres::part()]
-        .into_iter()
-        .filter(|part| asked.is_empty() || asked.iter().any(|word| word == part.name))
-        .collect();
+    let parts: Vec<Part> = [
+        rough::part()?,
+        smooth::part(),
+        strips::part(),
+        spheres::part(),
+    ]
+    .into_iter()
+    .filter(|part| asked.is_empty() || asked.iter().any(|word| word == part.name))
+    .collect();
     let jobs: Vec<&Job> = parts
         .iter()
         .flat_map(|part| part.rows.iter().flat_map(|(_, _, jobs)| jobs))

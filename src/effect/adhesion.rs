@@ -21,6 +21,13 @@ const PULL_OFF_RADIUS: f64 = 1.145;
 /// Its width in pixels below which the pixels of its edge change pull-off by 5 % and 10 %, measured at Tabor number 1.
 const FEW_PIXELS: f64 = 10.0;
 const LOST_PIXELS: f64 = 6.0;
+/// Rms heights over the range between which surfaces that are no sphere part as a whole, at a tension near the peak of the law, so
+/// that a taper lowers pull-off: by up to 8 % where it is 0.6 of the range, by up to 25 % at 1.8 (table of `docs/solver.md`).
+const PARTS_AS_A_WHOLE: std::ops::RangeInclusive<f64> = 0.1..=1.5;
+/// The largest of them at which the sharp law is within 5 % (`tests/physics/taper.rs`), as no edge is trapped.
+const NO_EDGE: f64 = 0.6;
+/// Taper over the range from which on it does.
+const LEAST_TAPER: f64 = 0.2;
 /// Tabor number below which a contact shrinks to a point before pull-off, so that it has no width.
 const LEAST_TABOR: f64 = 0.8;
 
@@ -127,7 +134,9 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
         "take more points or a longer range (range = \"auto\" finds the shortest that the grid resolves)"
     };
     let beyond = "10 % cannot be reached on this grid";
+    let has_edge = roughness(plan).is_none_or(|roughness| roughness > NO_EDGE);
     let text = match plan.law {
+        Law::MaugisDugdale(law) if law.taper == 0.0 && !has_edge => None,
         Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LOST => Some(format!(
             "{beyond}: {measured}: the sharp law traps the contact edge, pull-off comes out about 14 % too high at 0.16 and 44 % at 0.65; leave taper at \"auto\", or {remedy}"
         )),
@@ -158,7 +167,31 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
     };
     warnings.extend(text);
     warnings.extend(warning_of_small_contact(plan, regime));
+    warnings.extend(warning_of_taper(plan));
     warnings
+}
+
+/// The rms height over the range, of surfaces that part as a whole.
+fn roughness(plan: &Plan) -> Option<f64> {
+    let roughness = plan.outline.moments.rms_height() / plan.law.range();
+    (plan.outline.sphere_radius.is_none() && PARTS_AS_A_WHOLE.contains(&roughness))
+        .then_some(roughness)
+}
+
+/// The warning for a taper where no edge needs it.
+fn warning_of_taper(plan: &Plan) -> Option<String> {
+    let (range, taper) = (plan.law.range(), plan.law.taper());
+    let roughness = roughness(plan).filter(|_| taper >= LEAST_TAPER * range)?;
+    Some(format!(
+        "an rms height of {roughness:.2} of the range lets the surfaces part as a whole, and the taper of {} makes pull-off too low: by up to 8 % where it is 0.6 of the range and up to 25 % at 1.8 (here {:.2}); {}",
+        format_si(taper, "m"),
+        taper / range,
+        if roughness > NO_EDGE || plan.scene.capillary.is_some() {
+            "take more points"
+        } else {
+            "take taper = 0, which is within 5 % here"
+        }
+    ))
 }
 
 /// The warning for a sphere whose contact is only a few pixels wide at pull-off, whatever its cohesive zone.

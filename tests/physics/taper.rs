@@ -195,6 +195,76 @@ fn trapped_edges_are_warned_of() {
     }
 }
 
+/// Surfaces that are smoother than the range part as a whole: the taper lowers their pull-off, of which a run warns, and the sharp law
+/// is right on the same grid, of which it warns no more. Against the sharp law on a grid four times as fine.
+fn the_taper_of_smooth_surfaces_is_warned_of() {
+    const FACTOR: f64 = 1.01;
+    for (roughness, chi, tapered) in [(0.6, 0.1, [0.05, 0.10]), (0.33, 0.3, [0.18, 0.24])] {
+        // Lengths over the size; the modulus is 1.
+        let (pixel, range) = (1.0 / 48.0, 7.5e-4);
+        let work = chi * range * range / pixel;
+        let peak = work / range;
+        let pulled = |points: usize, taper: &str| {
+            let tensions =
+                std::iter::successors(Some(0.3 * peak), |tension| Some(tension * FACTOR));
+            let mut path = vec![2.0 * peak, 0.0];
+            path.extend(
+                tensions
+                    .take_while(|&tension| tension < peak)
+                    .map(|tension| -tension),
+            );
+            let solved = solve_table(&format!(
+                r#"
+                [grid]
+                points = {points}
+                size = 1.0
+                [solid]
+                contact_modulus = 1.0
+                [[surface]]
+                kind = "self-affine"
+                hurst = 0.7
+                rms_height = {:e}
+                longest = 1.0
+                rolloff = 0.5
+                shortest = {:e}
+                seed = 3
+                [adhesion]
+                law = "maugis-dugdale"
+                work_of_adhesion = {work:e}
+                range = {range:e}
+                {taper}
+                [loading]
+                control = "pressure"
+                path = {path:?}
+                "#,
+                roughness * range,
+                10.0 * pixel
+            ));
+            let held = solved.rows().filter(|row| row.state != State::Separated);
+            let off = held.map(|row| -row.mean_pressure).fold(0.0, f64::max);
+            (off, solved.setup.warnings.join("\n"))
+        };
+        let (reference, _) = pulled(192, "taper = 0");
+        let (sharp, said) = pulled(48, "taper = 0");
+        assert!(
+            (sharp / reference - 1.0).abs() < 0.05,
+            "{sharp} {reference}"
+        );
+        assert!(!said.contains("traps"), "{said}");
+        let (wide, said) = pulled(48, "");
+        let low = 1.0 - wide / reference;
+        println!(
+            "rms height {roughness} h0, chi {chi}: {:.1} % low",
+            100.0 * low
+        );
+        assert!((tapered[0]..tapered[1]).contains(&low), "{low}");
+        assert!(
+            said.contains("part as a whole") && said.contains("take taper = 0"),
+            "{said}"
+        );
+    }
+}
+
 /// Between its two turns the wave has one state at a load, so loading and unloading have one area: to the pixel
 /// at each edge that lies on a point's boundary.
 fn a_wave_loads_and_unloads_alike() {
@@ -333,6 +403,7 @@ fn spheres_lose_nothing_by_it() {
 tests![
     straight_edges_are_free,
     trapped_edges_are_warned_of,
+    the_taper_of_smooth_surfaces_is_warned_of,
     a_wave_loads_and_unloads_alike,
     spheres_lose_nothing_by_it,
 ];
