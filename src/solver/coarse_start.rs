@@ -2,7 +2,8 @@
 
 use std::ops::Range;
 
-use super::contact::{ContactSolver, Hold, Load, Start};
+use super::contact::ContactSolver;
+use super::load::{Hold, Load, Start};
 use super::{MakeBackend, problem::Problem};
 use crate::backend::{Backend, BackendError, host_fields};
 use crate::kernel::{Scalars, Status};

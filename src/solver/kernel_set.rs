@@ -1,6 +1,6 @@
 //! The kernel variants for the constraint of a problem, and the numbers that stay fixed during a solve.
 
-use super::contact::{Hold, Load};
+use super::load::{Hold, Load};
 use super::multilevel::{finest_compliances, level_compliance, softening};
 use super::problem::Problem;
 use crate::kernel::{Constraint, Kernel, Params};

@@ -15,6 +15,7 @@ mod heights;
 mod incremental_stiffness;
 mod iteration;
 mod kernel_set;
+mod load;
 mod mean_gap;
 mod moved_heights;
 mod multilevel;
@@ -26,8 +27,9 @@ mod refinement;
 mod rigid;
 mod stiffness;
 
-pub use contact::{ContactSolver, Hold, Load, Outcome, ROUNDS_PER_ITERATION, Start};
+pub use contact::{ContactSolver, ROUNDS_PER_ITERATION};
 pub use heights::Heights;
+pub use load::{Hold, Load, Outcome, Start};
 pub use outer_state::plan_outer_state;
 pub use problem::{Problem, Scales, good_size, solved_shape};
 pub use refinement::{MOST_ROUNDS, TRIALS_PER_ITERATION, works_in_turn};

@@ -1,7 +1,7 @@
 //! The state of a contact in double precision, beside a solver whose iterations run in single.
 
-use super::contact::{Hold, Load};
 use super::kernel_set::{KernelSet, params_of_problem};
+use super::load::{Hold, Load};
 use super::mean_gap::HeightsPressure;
 use super::problem::Problem;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Share, Spectrum};

@@ -13,7 +13,7 @@
 //! it is not, dg = S dv; at a wall v = g and S = 1. The points of the pad, which a free boundary adds, have
 //! neither wall nor law.
 
-use super::contact::{Load, Outcome};
+use super::load::{Load, Outcome};
 use super::multilevel::{EXACT_UNTIL, sticks};
 use super::plain_setup::{Contact, choose, dot, each, largest, least, most, norm, sum};
 use super::problem::Problem;

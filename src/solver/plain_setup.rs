@@ -6,8 +6,8 @@ use std::sync::Arc;
 use num_complex::Complex;
 use rustfft::{Fft, FftPlanner};
 
-use super::contact::{Hold, Load};
 use super::kernel_set::params_under;
+use super::load::{Hold, Load};
 use super::multilevel;
 use super::problem::Problem;
 use crate::kernel::Params;

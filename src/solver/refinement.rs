@@ -5,7 +5,8 @@
 //! so each round gains some digits, whatever the law: the closer a start is, the more. A path that moves on by a
 //! small step is mostly solved in one or two rounds. Only a start that is far is first solved in single precision.
 
-use super::contact::{ContactSolver, Load, Outcome, Start};
+use super::contact::ContactSolver;
+use super::load::{Load, Outcome, Start};
 use super::outer_state::OuterState;
 use crate::backend::{Backend, BackendError, Field};
 use crate::kernel::{Scalars, Status};

@@ -12,13 +12,13 @@ mod blocks;
 mod plans;
 mod row_transform;
 mod slabs;
+mod threads;
 mod transform;
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use rayon::prelude::*;
-use rayon::{ThreadPool, ThreadPoolBuilder};
 
 use super::ranks::{RankError, Ranks};
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values, check_fields};
@@ -30,6 +30,7 @@ use across::round_bytes;
 use blocks::{BLOCK, Held, Job, run_blocks};
 pub(super) use slabs::Slabs;
 pub use slabs::largest_slab;
+pub use threads::{Threads, keep_memory, with_threads};
 use transform::Transform;
 
 /// A backend in double precision, the reference, with nothing in it; of several ranks each holds its rows.
@@ -139,50 +140,8 @@ impl CpuReal for f32 {
     }
 }
 
-/// Runs `work` on a pool of `threads` threads (all cores if `None`), to which every backend made
-/// inside belongs.
-pub fn with_threads<R: Send>(
-    threads: Option<usize>,
-    work: impl FnOnce() -> R + Send,
-) -> Result<R, BackendError> {
-    Ok(Threads::new(threads)?.run(work))
-}
-
 /// Values that a thread converts at a time.
 const PIECE: usize = 1 << 14;
-
-/// Nearly the longest piece of memory that the allocator keeps when it is let go (glibc on 64 bits).
-const LONGEST_KEPT: usize = (32 << 20) - (64 << 10);
-
-/// Has the allocator keep the fields that are let go for those that come next, up to that length: glibc gives back to
-/// the system what is longer than any piece that it has seen come and go, and then every page is taken anew. This
-/// piece is never written to, so it has no pages.
-pub fn keep_memory() {
-    if cfg!(all(target_env = "gnu", target_pointer_width = "64")) {
-        let mut piece: Vec<u8> = Vec::new();
-        // Without so much memory it learns nothing.
-        let _ = piece.try_reserve_exact(LONGEST_KEPT);
-        std::hint::black_box(&mut piece);
-    }
-}
-
-/// A pool of threads that is kept between pieces of work: so the memory that one of them lets go is there for the next.
-pub struct Threads(ThreadPool);
-
-impl Threads {
-    /// So many of them, all cores if `None`.
-    pub fn new(threads: Option<usize>) -> Result<Threads, BackendError> {
-        let pool = ThreadPoolBuilder::new().num_threads(threads.unwrap_or(0));
-        let pool = pool.build();
-        pool.map(Threads)
-            .map_err(|error| BackendError::Device(format!("no thread pool: {error}")))
-    }
-
-    /// Runs `work` on them, to whom every backend made inside belongs.
-    pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
-        self.0.install(work)
-    }
-}
 
 impl<T: CpuReal> CpuBackend<T> {
     fn new(ranks: Option<Arc<dyn Ranks>>, corrected: bool) -> Self {
