@@ -91,7 +91,7 @@ def test_the_program(tmp_path):
 
 def test_a_sweep(tmp_path):
     (tmp_path / "base.toml").write_text(tabor.Scene({**SCENE, "output": {}}).to_toml())
-    study = {"scene": str(tmp_path / "base.toml"), "axis": [{"key": "surface.0.seed", "values": [1, 2]}, {"key": "surface.0.rms_slope", "values": [0.05, 0.1]}]}
+    study = {"scene": str(tmp_path / "base.toml"), "axis": [{"key": "surface.0.seed", "values": [1, 2]}, {"key": "surface.0.rms_slope", "values": [0.1, 0.2]}]}
     found = tabor.sweep(study, tmp_path / "swept", jobs=1)
     assert len(found["sweep"]) == 8
     assert set(found.tables) >= {"means", "runs", "sweep"}
