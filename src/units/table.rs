@@ -80,7 +80,7 @@ const PREFIXES: &[(char, i32)] = &[
     ('T', 12),
 ];
 
-/// The unit of a name, with its prefix; `None` if there is none.
+/// The unit of a name, with its prefix; `None` of an unknown one.
 pub(super) fn find_unit(name: &str) -> Option<Unit> {
     if let Some(&(_, dimension, power, factor)) = PLAIN.iter().find(|(plain, ..)| *plain == name) {
         return Some(Unit::new(dimension, power, factor));
