@@ -321,18 +321,29 @@ enum Followed {
     Heavier,
 }
 
+/// What a search for a jump found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Confirmed {
+    /// Whether the step jumped.
+    Known(bool),
+    /// A load of the search did not converge; whether the step jumped as far as the loads before it show.
+    Guessed(bool),
+    /// The watch ended the search.
+    Interrupted,
+}
+
 /// Whether a step between two rows jumped, found by halving it from the state before it. Losses below
-/// `least` (J) do not count. `None` if the watch ended it.
+/// `least` (J) do not count.
 pub(super) fn confirm(
     between: &mut Between,
     before: &StepRow,
     state: Carried,
     row: &StepRow,
     least: f64,
-) -> Result<Option<bool>, BackendError> {
+) -> Result<Confirmed, BackendError> {
     let prescribed = Prescribed::for_setup(between.means.setup);
     let Some(whole) = Piece::between(prescribed, before, row) else {
-        return Ok(Some(true));
+        return Ok(Confirmed::Known(true));
     };
     between.tell(Search::Jump);
     let tolerance = &mut between.means.tolerance;
@@ -355,7 +366,7 @@ fn follow(
     stretch: Stretch,
     least: f64,
     followed: Followed,
-) -> Result<Option<bool>, BackendError> {
+) -> Result<Confirmed, BackendError> {
     let prescribed = Prescribed::for_setup(between.means.setup);
     let Stretch {
         mut start,
@@ -367,18 +378,19 @@ fn follow(
         let share = 0.5 * (start.0.share + end.0);
         let tried = between.solve(&start.0, share)?;
         if between.interrupted {
-            return Ok(None);
+            return Ok(Confirmed::Interrupted);
         }
         if !tried.row.converged {
-            // Nothing more is known: where the surfaces came together or parted, they may well have jumped.
-            keeping += usize::from(start.1.state != end.1.state);
-            break;
+            // Where the surfaces came together or parted, they may well have jumped.
+            return Ok(Confirmed::Guessed(
+                keeping > 0 || start.1.state != end.1.state,
+            ));
         }
         let pieces = Piece::between(prescribed, &start.1, &tried.row)
             .zip(Piece::between(prescribed, &tried.row, &end.1));
         let Some((first, second)) = pieces else {
             // Separated between the two places.
-            return Ok(Some(true));
+            return Ok(Confirmed::Known(true));
         };
         let parts = |a: &StepRow, b: &StepRow| {
             followed == Followed::Parting
@@ -416,12 +428,12 @@ fn follow(
         };
         if bends && other.size() > half.size().max(least) {
             let found = follow(between, beside, least, Followed::Heavier)?;
-            if found != Some(false) {
+            if found != Confirmed::Known(false) {
                 return Ok(found);
             }
         }
         if half.size() <= least {
-            return Ok(Some(false));
+            return Ok(Confirmed::Known(false));
         }
         // Of a jump the force keeps its change, whatever the losses of the halves are.
         // Nor does what compression leaves behind say that none is there.
@@ -433,7 +445,7 @@ fn follow(
             false => 0,
         };
         if shrinking > 0 && !bends || shrinking == SHRINKING {
-            return Ok(Some(false));
+            return Ok(Confirmed::Known(false));
         }
         keeping = match half.lost > least.max(half.doubt) && half.lost > KEEPS * whole.lost {
             true if half.lost > (SURE[0] * whole.lost).max(SURE[1] * half.doubt) => KEEPING,
@@ -441,11 +453,11 @@ fn follow(
             false => 0,
         };
         if keeping == KEEPING {
-            return Ok(Some(true));
+            return Ok(Confirmed::Known(true));
         }
         whole = half;
     }
-    Ok(Some(keeping > 0))
+    Ok(Confirmed::Known(keeping > 0))
 }
 
 /// Work done on the surfaces in a step less what they store and what the solid dissipates, J.

@@ -17,6 +17,8 @@ pub struct FinishedStep<'a> {
     pub evaluation: Option<Evaluation>,
     /// The jump that the step made, if it made one.
     pub jump: Option<Jump>,
+    /// Whether `jump` is a guess: a load within the step that would tell did not converge.
+    pub jump_is_guessed: bool,
     /// Whether no step follows.
     pub is_last: bool,
 }

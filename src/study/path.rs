@@ -2,7 +2,7 @@
 
 use super::between::{Between, Watched};
 use super::checkpoint::{Checkpoint, Earlier};
-use super::jumps::{Jump, Jumps, Verdict, confirm};
+use super::jumps::{Confirmed, Jump, Jumps, Verdict, confirm};
 use super::observer::{FinishedStep, Observer, WalkEnd, WalkError};
 use super::planned::Planned;
 use super::pull_off;
@@ -248,6 +248,7 @@ impl Stretch {
             row,
             evaluation: solved.evaluation,
             jump: found.jump,
+            jump_is_guessed: found.jump_is_guessed,
             is_last: !row.converged || Planned::after(setup, &end.rows).is_none(),
         };
         observer.step(finished).map_err(WalkError::Observer)?;
@@ -292,6 +293,8 @@ fn time(setup: &Setup, duration: f64, before: Option<&StepRow>) -> Option<f64> {
 #[derive(Default)]
 struct Found {
     jump: Option<Jump>,
+    /// Whether the jump, or that there is none, is a guess.
+    jump_is_guessed: bool,
     pull_off: Option<pull_off::PullOff>,
     /// Transforms of further solvers.
     transforms: f64,
@@ -325,8 +328,15 @@ fn look_between(
         && pull_off::may_let_go(between.means.setup, between.to);
     if let Verdict::Perhaps { way, least } = verdict {
         let left = between.walker.carried()?;
-        let jumped = confirm(&mut between, before, state, row, least)?;
-        found.jump = jumped.unwrap_or(false).then_some(way);
+        let jumped = match confirm(&mut between, before, state, row, least)? {
+            Confirmed::Known(jumped) => jumped,
+            Confirmed::Guessed(jumped) => {
+                found.jump_is_guessed = true;
+                jumped
+            }
+            Confirmed::Interrupted => false,
+        };
+        found.jump = jumped.then_some(way);
         between.walker.go_back(&left);
     } else if lets_go {
         let left = between.walker.carried()?;

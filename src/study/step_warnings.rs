@@ -1,5 +1,5 @@
 //! Warnings of what a step shows: contact at a cut edge, pressures that do not add up to the load, a contact too wide for the
-//! theory.
+//! theory, a jump that is a guess.
 
 use std::f64::consts::PI;
 
@@ -16,7 +16,11 @@ const WIDE: f64 = 0.5;
 
 /// The warnings of a step, except those that were `said` of another one.
 pub fn step_warnings(setup: &Setup, step: &FinishedStep, said: &[String]) -> Vec<String> {
-    let others = [missed_value(setup, step), wide_contact(setup, step)];
+    let others = [
+        missed_value(setup, step),
+        wide_contact(setup, step),
+        guessed_jump(setup, step),
+    ];
     let unsaid = |[_, words]: &[String; 2]| !said.iter().any(|text| text.ends_with(words));
     let others = others.into_iter().flatten().filter(unsaid);
     let edge = edge_warning(step, said).map(str::to_owned);
@@ -61,6 +65,23 @@ fn wide_contact(setup: &Setup, step: &FinishedStep) -> Option<[String; 2]> {
             format!("the radius of contact is {share:.2} of that of the sphere"),
             "; a half-space stands for a sphere where the contact is far narrower than the sphere"
                 .to_owned(),
+        ]
+    })
+}
+
+/// That a search did not tell whether the step jumped: what is taken for the answer, and the words for any step.
+fn guessed_jump(setup: &Setup, step: &FinishedStep) -> Option<[String; 2]> {
+    let listed = match step.jump {
+        Some(_) => "it is not known to have jumped, and is listed as a jump",
+        None => "it may have jumped, and is not listed as a jump",
+    };
+    step.jump_is_guessed.then(|| {
+        [
+            listed.to_owned(),
+            format!(
+                "; a load between it and the step before did not converge in solver.max_iterations = {}: allow more, or take more steps there",
+                setup.scene.solver.max_iterations
+            ),
         ]
     })
 }

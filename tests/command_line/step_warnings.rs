@@ -1,8 +1,8 @@
-//! Pressures that do not add up to the prescribed load, and contacts too wide for a half-space.
+//! Pressures that do not add up to the prescribed load, contacts too wide for a half-space, and jumps that are guesses.
 
 use std::f64::consts::PI;
 
-use crate::shared::binary::{errors, number, scene, status, table, tabor};
+use crate::shared::binary::{errors, number, scene, status, summary, table, tabor};
 use crate::shared::trials::tests;
 
 /// A tension of 167 MPa within 0.3 nm: at a tolerance of 1e-4, a point of it may miss its balance by the force of the path.
@@ -108,7 +108,57 @@ output = { images = [] }
     assert!(said.contains(words), "{said}");
 }
 
+/// Within a step of 200 nm rough surfaces jump together; close to the jump a load takes more iterations than the step.
+/// Of a search that they end, the list of jumps is said to be a guess, and else it is that of a search without an end.
+fn a_jump_that_is_a_guess_is_warned_of() {
+    let mut guesses = 0;
+    for seed in 1..=8 {
+        let folder = scene(&format!(
+            r#"
+grid = {{ points = 32, size = "20 um" }}
+solid = {{ contact_modulus = "2 MPa" }}
+surface = [{{ kind = "self-affine", hurst = 0.5, rms_slope = 0.1, longest = "20 um", rolloff = "20 um", shortest = "5 um", seed = {seed} }}]
+adhesion = {{ law = "maugis-dugdale", work_of_adhesion = "20 mJ/m^2", range = "100 nm" }}
+loading = {{ control = "approach", path = ["-200 nm", 0] }}
+output = {{ images = [] }}
+"#
+        ));
+        let run = |name: &str, limit: &str| {
+            let set = format!("solver.max_iterations={limit}");
+            let call = [
+                "run",
+                "scene.toml",
+                "--backend",
+                "cpu",
+                "--out",
+                name,
+                "--set",
+                &set,
+            ];
+            let output = tabor(folder.path(), &call);
+            assert_eq!(status(&output), 0, "{}", errors(&output));
+            let jumps = summary(&folder.path().join(name))["jump_in_steps"].clone();
+            (jumps, errors(&output))
+        };
+        let (jumps, said) = run("all", "1000");
+        assert!(!said.contains("jumped"), "{said}");
+        let curve = table(&folder.path().join("all/curve.csv"));
+        let iterations = number(&curve[1], "iterations").expect("iterations");
+        let (limited, said) = run("limited", &iterations.to_string());
+        let words = format!("did not converge in solver.max_iterations = {iterations}");
+        match said.contains("jumped") {
+            true => {
+                assert!(said.contains(&words), "{said}");
+                guesses += 1;
+            }
+            false => assert_eq!(limited, jumps, "seed {seed}"),
+        }
+    }
+    assert!(guesses > 0);
+}
+
 tests![
+    a_jump_that_is_a_guess_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
