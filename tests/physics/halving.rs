@@ -139,4 +139,43 @@ fn a_rough_surface() {
     compare("rough, tapered", &coarse, &fine, step, [0.4, 0.02]);
 }
 
-tests![a_sphere, a_rough_surface,];
+/// A search halves a step eight times at most, and leaves out what loses less than a hundredth of the work of the points
+/// that changed: what bends, or jumps besides, hides a jump in a step that is long for the range. In steps of a tenth of
+/// the range none hides whose force is a tenth of the greatest: those of steps an eighth as long are all listed.
+fn short_steps_list_the_jumps_of_shorter_ones() {
+    const STEPS: usize = 48;
+    const FINER: usize = 8;
+    let mut listed = 0;
+    for seed in [1, 11] {
+        let [coarse, fine] = [STEPS, FINER * STEPS].map(|steps| {
+            let path = loop_path(-3e-7, 1.5e-7, steps);
+            Loop::from_solved(&solve_table(&format!(
+                r#"
+grid = {{ points = 32, size = "20 um" }}
+solid = {{ contact_modulus = "2 MPa" }}
+surface = [{{ kind = "self-affine", hurst = 0.5, rms_slope = 0.1, longest = "20 um", rolloff = "20 um", shortest = "5 um", seed = {seed} }}]
+adhesion = {{ law = "maugis-dugdale", work_of_adhesion = "20 mJ/m^2", range = "100 nm" }}
+loading = {{ control = "approach", path = {path:?} }}
+"#
+            )))
+        });
+        let forces = &fine.forces;
+        let greatest = forces
+            .iter()
+            .fold(0.0_f64, |most, force| most.max(force.abs()));
+        for &jump in &fine.jumps {
+            if (forces[jump] - forces[jump - 1]).abs() > 0.1 * greatest {
+                let step = jump.div_ceil(FINER);
+                assert!(coarse.jumps.contains(&step), "seed {seed}: step {step}");
+                listed += 1;
+            }
+        }
+    }
+    assert!(listed > 3, "{listed} jumps");
+}
+
+tests![
+    a_sphere,
+    a_rough_surface,
+    short_steps_list_the_jumps_of_shorter_ones,
+];
