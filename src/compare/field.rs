@@ -183,6 +183,10 @@ fn pull_off_by_retraction(
                 states.push((gap, -state.mean_pressure));
             }
             let least = best.map_or(0.0, |best| best.mean_pressure);
+            // An earlier retraction, in longer steps, found the greatest farther away.
+            let leads_there = best
+                .and_then(|best| state.mean_gap.zip(best.mean_gap))
+                .is_some_and(|(gap, greatest)| gap < greatest);
             if converged && state.mean_pressure < least {
                 best = Some(state);
             }
@@ -191,7 +195,7 @@ fn pull_off_by_retraction(
             let attraction = state.adhesive_pressure.unwrap_or(0.0);
             let attracts = state.mean_gap.is_some_and(|gap| gap < far);
             Ok(match least < 0.0 {
-                true => state.mean_pressure <= OVER * least || attraction >= -least,
+                true => leads_there || state.mean_pressure <= OVER * least || attraction >= -least,
                 false => attracts,
             })
         };
