@@ -2,28 +2,28 @@
 
 use tabor::theory::capillary::Meniscus;
 use tabor::theory::viscoelastic::Solid;
-use tabor::theory::{TheoryError, conductance, friction, rate};
+use tabor::theory::{Law, TheoryError, conductance, friction, rate};
 
-use super::Evaluate;
 use super::functions::sphere;
+use super::{Evaluate, Words};
 
 /// The functions of laws and effects by name, with the number of their results.
 pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     // Laws of (work of adhesion, range, gap).
     ("laws.energy", 1, |words, x| {
-        let [work, _, gap] = law(x)?;
+        let [work, _, gap] = law(words, x)?;
         Ok(vec![work * words.law.energy(gap)])
     }),
     ("laws.traction", 1, |words, x| {
-        let [work, range, gap] = law(x)?;
+        let [work, range, gap] = law(words, x)?;
         Ok(vec![work / range * words.law.traction(gap)])
     }),
     ("laws.slope", 1, |words, x| {
-        let [work, range, gap] = law(x)?;
+        let [work, range, gap] = law(words, x)?;
         Ok(vec![work / (range * range) * words.law.slope(gap)])
     }),
     ("laws.peak_tension", 1, |words, x| {
-        let [work, range, _] = law(&[x[0], x[1], 0.0])?;
+        let [work, range, _] = law(words, &[x[0], x[1], 0.0])?;
         Ok(vec![work / range * words.law.peak_tension()])
     }),
     ("rate.power_law", 1, |_, x| {
@@ -40,10 +40,12 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         Ok(vec![rate::logarithmic_law(x[0], x[1], x[2], x[3])?])
     }),
     ("viscoelastic.relaxation", 1, |_, x| {
-        Ok(vec![Solid::new(x[0], x[1], x[2])?.relaxation(x[3])])
+        let solid = Solid::new(x[0], x[1], x[2])?;
+        Ok(vec![solid.relaxation(later(x[3])?)])
     }),
     ("viscoelastic.creep", 1, |_, x| {
-        Ok(vec![Solid::new(x[0], x[1], x[2])?.creep(x[3])])
+        let solid = Solid::new(x[0], x[1], x[2])?;
+        Ok(vec![solid.creep(later(x[3])?)])
     }),
     ("viscoelastic.pressure", 1, |_, x| {
         let solid = Solid::new(x[0], x[1], x[2])?;
@@ -80,17 +82,37 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     }),
 ];
 
-/// Work of adhesion, range, and the gap in ranges; Lennard-Jones' ends at -1.
-fn law(x: &[f64]) -> Result<[f64; 3], TheoryError> {
+/// Work of adhesion, range, and the gap in ranges.
+fn law(words: &Words, x: &[f64]) -> Result<[f64; 3], TheoryError> {
     let (work, range) = (
         positive("work_of_adhesion", x[0])?,
         positive("range", x[1])?,
     );
-    Ok([work, range, x[2] / range])
+    let gap = x[2] / range;
+    if words.law == Law::LennardJones && gap <= -1.0 {
+        return Err(TheoryError::OutOfRange {
+            name: "gap",
+            value: x[2],
+            allowed: "above minus the range",
+        });
+    }
+    Ok([work, range, gap])
+}
+
+/// A time from 0 on.
+fn later(time: f64) -> Result<f64, TheoryError> {
+    if time >= 0.0 {
+        return Ok(time);
+    }
+    Err(TheoryError::OutOfRange {
+        name: "time",
+        value: time,
+        allowed: "zero or more",
+    })
 }
 
 /// A value above 0.
-fn positive(name: &'static str, value: f64) -> Result<f64, TheoryError> {
+pub(super) fn positive(name: &'static str, value: f64) -> Result<f64, TheoryError> {
     if value > 0.0 {
         return Ok(value);
     }

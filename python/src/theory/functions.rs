@@ -17,6 +17,7 @@ use tabor::theory::{
     love, westergaard,
 };
 
+use super::effects::positive;
 use super::lennard_jones;
 use super::{Evaluate, Words};
 
@@ -181,20 +182,22 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     }),
     ("westergaard.half_width", 1, |_, x| {
         let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
-        Ok(vec![x[2] * westergaard::half_width(x[3] / whole)?])
+        let found = told(westergaard::half_width(x[3] / whole), PARTIAL, x[3])?;
+        Ok(vec![x[2] * found])
     }),
     ("westergaard.mean_pressure", 1, |_, x| {
         let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
-        Ok(vec![whole * westergaard::mean_pressure(x[3] / x[2])?])
+        let found = told(westergaard::mean_pressure(x[3] / x[2]), WITHIN_WAVE, x[3])?;
+        Ok(vec![whole * found])
     }),
     ("westergaard.adhesive_mean_pressure", 1, |_, x| {
         let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
         let adhesion = westergaard::adhesion_parameter(x[0], x[1], x[2], x[3])?;
-        Ok(vec![
-            whole * westergaard::adhesive_mean_pressure(x[4] / x[2], adhesion)?,
-        ])
+        let found = westergaard::adhesive_mean_pressure(x[4] / x[2], adhesion);
+        Ok(vec![whole * told(found, WITHIN_WAVE, x[4])?])
     }),
     ("westergaard.pull_off", 2, |_, x| {
+        positive("work_of_adhesion", x[3])?;
         let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
         let adhesion = westergaard::adhesion_parameter(x[0], x[1], x[2], x[3])?;
         let extrema = westergaard::adhesive_extrema(adhesion)?;
@@ -205,17 +208,18 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     }),
     ("westergaard.pressure", 1, |_, x| {
         let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
-        Ok(vec![
-            whole * westergaard::pressure(x[3] / x[2], x[4] / x[2])?,
-        ])
+        let found = westergaard::pressure(x[3] / x[2], x[4] / x[2]);
+        Ok(vec![whole * told(found, WITHIN_WAVE, x[3])?])
     }),
     ("westergaard.gap", 1, |_, x| {
         westergaard::full_contact_pressure(x[0], x[1], x[2])?;
-        Ok(vec![x[1] * westergaard::gap(x[3] / x[2], x[4] / x[2])?])
+        let found = westergaard::gap(x[3] / x[2], x[4] / x[2]);
+        Ok(vec![x[1] * told(found, WITHIN_WAVE, x[3])?])
     }),
     ("westergaard.mean_gap", 1, |_, x| {
         let whole = westergaard::full_contact_pressure(x[0], x[1], x[2])?;
-        Ok(vec![x[1] * westergaard::mean_gap(x[3] / whole)?])
+        let found = told(westergaard::mean_gap(x[3] / whole), PARTIAL, x[3])?;
+        Ok(vec![x[1] * found])
     }),
     ("cohesive_wave.at_half_width", 3, |_, x| {
         let wave = Wave::new(x)?;
@@ -298,8 +302,9 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
     }),
     ("persson.contact_area_fraction", 1, |_, x| {
         with_persson(x[3], |theory| {
-            tabor_map::contact_modulus((x[1], 0.0), (f64::INFINITY, 0.0))?;
-            Ok(vec![theory.area_fraction(x[0] / (x[1] * x[2]))?])
+            let unit = positive("contact_modulus", x[1])? * positive("rms_slope", x[2])?;
+            let found = theory.area_fraction(x[0] / unit);
+            Ok(vec![told(found, COMPRESSIVE, x[0])?])
         })
     }),
     ("persson.mean_gap", 1, |_, x| {
@@ -391,13 +396,34 @@ impl Wave {
 
 /// Pressure over modulus of (contact modulus, pressure).
 fn strain(x: &[f64]) -> Result<f64, TheoryError> {
-    if x[0] > 0.0 {
-        return Ok(x[1] / x[0]);
-    }
-    Err(TheoryError::OutOfRange {
-        name: "contact_modulus",
-        value: x[0],
-        allowed: "positive",
+    Ok(x[1] / positive("contact_modulus", x[0])?)
+}
+
+/// An argument and what it may be, where a theory takes it in units of its own.
+type Argument = (&'static str, &'static str);
+/// The load of a wave in partial contact.
+const PARTIAL: Argument = (
+    "mean_pressure",
+    "between 0 and the pressure of full contact",
+);
+/// The load of a hard contact.
+const COMPRESSIVE: Argument = ("mean_pressure", "zero or more, and finite");
+/// The contact of a wave.
+const WITHIN_WAVE: Argument = ("half_width", "between 0 and half a wavelength");
+
+/// The result of a theory that refuses a number in its own units by the argument that was given.
+fn told<T>(
+    result: Result<T, TheoryError>,
+    (name, allowed): Argument,
+    value: f64,
+) -> Result<T, TheoryError> {
+    result.map_err(|error| match error {
+        TheoryError::OutOfRange { .. } => TheoryError::OutOfRange {
+            name,
+            value,
+            allowed,
+        },
+        other => other,
     })
 }
 
@@ -470,6 +496,16 @@ fn attraction(words: &Words, x: &[f64]) -> Adhesion {
 /// The bearing-area model of (rms height, roll-off wavelength, contact modulus, work of adhesion, range), and its
 /// tension, Pa.
 fn bearing_area(x: &[f64]) -> Result<(BearingArea, f64), TheoryError> {
+    let names = [
+        "rms_height",
+        "rolloff",
+        "contact_modulus",
+        "work_of_adhesion",
+        "range",
+    ];
+    for (name, value) in names.into_iter().zip(x) {
+        positive(name, *value)?;
+    }
     let tension = x[3] / x[4];
     let model = BearingArea::new(x[0] / x[4], 2.0 * PI / x[1] * x[0] * x[2] / tension)?;
     Ok((model, tension))
