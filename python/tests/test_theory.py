@@ -82,6 +82,7 @@ def test_ten_thousand_elements():
         (lambda: theory.westergaard.half_width(E, 1e-8, 1e-6, "40 MPa"), "mean_pressure = 4e7 .* full contact"),
         (lambda: theory.westergaard.gap(E, 1e-8, 1e-6, "0.6 um", 0.0), "half_width = 6e-7"),
         (lambda: theory.persson.contact_area_fraction(-1e6, E, 0.1), "mean_pressure = -1e6"),
+        (lambda: theory.persson.pull_off(0.8, 1e-5, 1e-5, 1e-6, 1e-8, E, W, -1e-9), "range"),
         (lambda: theory.bam.attraction(1e-8, 1e-5, E, W, -1e-9, 0.0), "range"),
         (lambda: theory.laws.energy(W, 1e-9, [0.0, -1e-9]), "gap.*element 1"),
         (lambda: theory.effects.relaxation(E, E, 1.0, -1.0), "time"),
@@ -123,6 +124,20 @@ def test_inverses_of_rough_theories():
     density = theory.spectrum.density(*band, wavenumbers)
     assert np.sqrt(trapezoid(2 * np.pi * wavenumbers * density, wavenumbers)) == pytest.approx(1e-8, rel=1e-3)
     assert theory.spectrum.density(*band, 1e9) == 0.0
+
+
+def test_weak_attraction_has_no_pull_off():
+    # Stiff surfaces: of the arrays the first element adheres, the second does not.
+    work = ["200 mJ/m^2", "1 uJ/m^2"]
+    tension, gap = theory.bam.pull_off(1e-8, "5 um", E, work, 1e-9)
+    assert tension[0] > 0 and np.isnan([tension[1], gap[1]]).all()
+    rough = (0.8, "10 um", "5 um", "0.1 um", 1e-8, E)
+    tension, repulsion = theory.persson.pull_off(*rough, work, 1e-9)
+    assert tension[0] > 0 and np.isnan([tension[1], repulsion[1]]).all()
+    # The attraction is at most w/range, 1 kPa.
+    repulsion = theory.persson.repulsive_pressure(*rough, work[1], 1e-9, "2 MPa")
+    assert 0 < repulsion - 2e6 < 1e3
+    assert repulsion - theory.persson.attraction(*rough, work[1], 1e-9, repulsion) == pytest.approx(2e6, rel=1e-6)
 
 
 def test_single_contacts_of_effects():

@@ -9,15 +9,13 @@ use crate::scene::SurfacePart;
 use crate::surface::spectrum::SpectralMoments;
 use crate::theory::bam::BearingArea;
 use crate::theory::persson::Persson;
-use crate::theory::persson_gap::{Adhesion, PullOff, RoughContact};
+use crate::theory::persson_gap::{Adhesion, RoughContact};
 use crate::theory::roots::root;
 use crate::theory::{Law as Reduced, Spectrum, TheoryError};
 use crate::units::format_si;
 
 /// Energy factor of Persson's theory.
 const GAMMA: f64 = 0.5;
-/// Least repulsive pressure at which the theory is used, in E* times the rms slope.
-const NO_TENSION: f64 = 1e-5;
 /// Largest factor between the longest wave of a cell and that of the spectrum that stands for it, as a logarithm.
 const WIDENED: f64 = 1.5;
 /// Hurst exponents around 0.8 for which the constants of BAM are valid.
@@ -159,19 +157,12 @@ pub(super) fn persson(comparison: &Comparison, table: &mut Table) -> Result<(), 
         }
         return Ok(());
     };
-    let pull_off = match contact.pull_off(&adhesion) {
-        Ok(found) => {
-            let at = state(found.pressure, -found.tension)?;
-            table.add(at, Some(found.tension), limit)?;
-            found
-        }
-        // The attraction is so small that the theory finds no tension at any load within its range.
-        Err(TheoryError::OutOfRange { .. }) => PullOff {
-            tension: 0.0,
-            pressure: NO_TENSION * modulus * found.spectrum.rms_slope(),
-        },
-        Err(error) => return Err(error.into()),
-    };
+    // Without a tension the attraction is so small that the theory finds none at any load within its range.
+    let pull_off = contact.turning_point(&adhesion)?;
+    if pull_off.tension > 0.0 {
+        let at = state(pull_off.pressure, -pull_off.tension)?;
+        table.add(at, Some(pull_off.tension), limit)?;
+    }
     let tension = pull_off.tension;
     for load in comparison.carried(tension) {
         let repulsive = contact.repulsive_pressure(&adhesion, &pull_off, load)?;

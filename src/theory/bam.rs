@@ -52,8 +52,14 @@ impl BearingArea {
     }
 
     /// Mean gap (in `h_rms`) and magnitude (in sigma0) of the greatest tension.
+    ///
+    /// # Errors
+    /// Repulsion exceeds attraction at every gap.
     pub fn pull_off(&self) -> Result<(f64, f64), TheoryError> {
         let (gap, least) = scanned_minimum(|u| self.pressure(u), 0.0, self.farthest(), 200);
-        Ok((gap, positive("pull-off", -least)?))
+        if least < 0.0 {
+            return Ok((gap, -least));
+        }
+        Err(TheoryError::NoSolution { what: "a tension" })
     }
 }

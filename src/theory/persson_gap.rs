@@ -4,13 +4,16 @@
 //! The attraction is summed over the gaps of the hard-wall contact (the DMT force method), so it is
 //! valid for asperities of small Tabor parameter and has no hysteresis.
 
-use super::error::{TheoryError, not_negative, positive, within};
+use super::error::{TheoryError, not_negative, positive};
 use super::laws::Law;
 use super::persson::Persson;
 use super::quadrature::integrate;
 use super::roots::{minimum, root};
 use super::spectrum::Spectrum;
 use std::f64::consts::PI;
+
+/// Least repulsive pressure at which the theory is used, in `E* h'_rms`, but for attractions of long range.
+const LEAST_LOAD: f64 = 1e-5;
 
 /// A rough surface on a half-space.
 #[derive(Clone, Debug)]
@@ -213,16 +216,36 @@ impl RoughContact {
         Ok(pressure - self.attraction(adhesion, pressure)?)
     }
 
+    /// Where the net pressure begins to rise with the repulsive one: the state of greatest tension, or without a tension that of
+    /// the least load.
+    ///
+    /// # Errors
+    /// A range or a work of adhesion that are out of range.
+    pub fn turning_point(&self, adhesion: &Adhesion) -> Result<PullOff, TheoryError> {
+        match self.pull_off(adhesion) {
+            Err(TheoryError::NoSolution { .. }) => Ok(PullOff {
+                tension: 0.0,
+                pressure: LEAST_LOAD * self.contact_modulus * self.spectrum.rms_slope(),
+            }),
+            found => found,
+        }
+    }
+
     /// The greatest net tension; the repulsive pressure is sought from 1e-5 of `E* h'_rms` to full contact, and below
     /// that if an attraction of long range holds surfaces that hardly touch.
+    ///
+    /// # Errors
+    /// Repulsion exceeds attraction at each of these pressures; a range or a work of adhesion that are out of range.
     pub fn pull_off(&self, adhesion: &Adhesion) -> Result<PullOff, TheoryError> {
+        positive("range", adhesion.range)?;
+        not_negative("work_of_adhesion", adhesion.work_of_adhesion)?;
         let unit = self.contact_modulus * self.spectrum.rms_slope();
         let net = |log: f64| {
             self.net_pressure(adhesion, unit * log.exp())
                 .unwrap_or(f64::NAN)
         };
         // Places 0 to 14 lead to 1; at 17, which is 12, all is in contact and nothing attracts.
-        let place = |i: i32| 1e-5_f64.ln() * (1.0 - f64::from(i) / 14.0);
+        let place = |i: i32| LEAST_LOAD.ln() * (1.0 - f64::from(i) / 14.0);
         let (least_place, last) = (-20, 17);
         let mut best = (0, f64::INFINITY);
         for i in 0..=last {
@@ -238,12 +261,9 @@ impl RoughContact {
             }
             best = (best.0 - 1, value);
         }
-        within(
-            "repulsive pressure at pull-off",
-            place(best.0).exp(),
-            best.1 < 0.0,
-            "1e-5 of E* h'_rms or more",
-        )?;
+        if best.1.is_nan() || best.1 >= 0.0 {
+            return Err(TheoryError::NoSolution { what: "a tension" });
+        }
         let (log, least) = minimum(net, place(best.0 - 1), place(best.0 + 1));
         Ok(PullOff {
             tension: -least,
@@ -251,7 +271,7 @@ impl RoughContact {
         })
     }
 
-    /// Repulsive pressure at a `net_pressure` (Pa), on the compressive side of `pull_off`, Pa.
+    /// Repulsive pressure at a `net_pressure` (Pa), on the compressive side of `pull_off` or [`Self::turning_point`], Pa.
     pub fn repulsive_pressure(
         &self,
         adhesion: &Adhesion,
@@ -351,6 +371,36 @@ mod tests {
         assert!((long / 1e-3 - 1.0).abs() < 1e-4, "{long}");
         let short = greatest(&contact([1.0, 1.0, 10.0 / 3.0]), 15_586.0, 3e-5);
         assert!((short / 440.71 - 1.0).abs() < 1e-3, "{short}");
+    }
+
+    /// A stiff surface that attraction of a short range does not hold: the net pressure is the repulsive one less an attraction
+    /// that can be neglected, and there is no tension.
+    #[test]
+    fn a_surface_that_does_not_stick_has_a_repulsive_pressure_and_no_tension() {
+        let spectrum = Spectrum::new([1.0, 4.0, 128.0], 0.8, 1.0).unwrap();
+        let contact = RoughContact::new(Persson::new(0.5).unwrap(), spectrum, 1.0).unwrap();
+        let mut adhesion = Adhesion {
+            law: Law::Exponential,
+            work_of_adhesion: 1e-9,
+            range: 1e-3,
+        };
+        let none = TheoryError::NoSolution { what: "a tension" };
+        assert_eq!(contact.pull_off(&adhesion), Err(none));
+        let turn = contact.turning_point(&adhesion).unwrap();
+        assert_eq!(turn.tension, 0.0);
+        let net = 0.01 * spectrum.rms_slope();
+        let repulsive = contact.repulsive_pressure(&adhesion, &turn, net).unwrap();
+        let attraction = contact.attraction(&adhesion, repulsive).unwrap();
+        // The root is to 1e-9 of the logarithm.
+        assert!(((repulsive - attraction) / net - 1.0).abs() < 1e-8);
+        // All of the attraction is at most w/range.
+        assert!(attraction > 0.0 && repulsive - net < 1e-6);
+        adhesion.range = -1e-3;
+        let refused = contact.turning_point(&adhesion);
+        assert!(matches!(
+            refused,
+            Err(TheoryError::OutOfRange { name: "range", .. })
+        ));
     }
 
     /// By a sum over 240 magnifications and graded panels from gap 0 on (NumPy); without such panels it was 6 % less.

@@ -325,7 +325,7 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         let (spectrum, adhesion) = (self_affine(x)?, attraction(words, x));
         with_persson(x[9], |theory| {
             let rough = RoughContact::new(theory.clone(), spectrum, x[5])?;
-            let turn = rough.pull_off(&adhesion)?;
+            let turn = rough.turning_point(&adhesion)?;
             Ok(vec![rough.repulsive_pressure(&adhesion, &turn, x[8])?])
         })
     }),

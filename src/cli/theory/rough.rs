@@ -126,7 +126,7 @@ fn persson_table(values: &Values) -> Result<Table, Failure> {
     if let Some(adhesion) = &adhesion {
         match contact.pull_off(adhesion) {
             Ok(found) => table.note("pull_off_pressure", -found.tension, "Pa"),
-            Err(TheoryError::OutOfRange { .. }) => table.notes.push(
+            Err(TheoryError::NoSolution { .. }) => table.notes.push(
                 "pull_off_pressure: none, repulsion exceeds attraction from 1e-5 of contact modulus times rms slope on"
                     .to_owned(),
             ),
@@ -185,7 +185,7 @@ fn bam_table(values: &Values) -> Result<Table, Failure> {
             table.note("pull_off_pressure", -tension * pull_off, "Pa");
             table.note("pull_off_mean_gap", height * gap, "m");
         }
-        Err(TheoryError::OutOfRange { .. }) => table
+        Err(TheoryError::NoSolution { .. }) => table
             .notes
             .push("pull_off_pressure: none, repulsion exceeds attraction at every gap".to_owned()),
         Err(error) => return Err(error.into()),

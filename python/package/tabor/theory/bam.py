@@ -41,7 +41,7 @@ def pull_off(
     work_of_adhesion: Quantities,
     range: Quantities,
 ) -> tuple[Floats, Floats]:
-    """Greatest mean tension.
+    """Greatest mean tension; NaN where repulsion exceeds the attraction at every gap.
 
     Parameters
     ----------

@@ -78,7 +78,7 @@ def pull_off(
     gamma: Quantities = 0.5,
     law: str = "lennard-jones",
 ) -> tuple[Floats, Floats]:
-    """Greatest mean tension.
+    """Greatest mean tension; NaN where repulsion exceeds the attraction at every load.
 
     Parameters
     ----------
