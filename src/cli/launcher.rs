@@ -10,6 +10,9 @@ use crate::backend::ranks::Ranks;
 /// What a launcher tells the processes that it starts of their number: Open MPI, and those that speak PMI.
 #[cfg(any(not(feature = "mpi"), unix))]
 const COUNTS: [&str; 2] = ["OMPI_COMM_WORLD_SIZE", "PMI_SIZE"];
+/// PMIx tells a process its rank in a variable, and Slurm, which starts it by PMIx, their number.
+#[cfg(any(not(feature = "mpi"), unix))]
+const PMIX: [&str; 2] = ["PMIX_RANK", "SLURM_STEP_NUM_TASKS"];
 /// By one of these a process knows that a launcher has started it: Open MPI, and those that speak PMI or PMIx. Without
 /// one MPI is not started: it would start a service of its own.
 #[cfg(feature = "mpi")]
@@ -28,7 +31,8 @@ fn number_in(names: &[&str]) -> Option<usize> {
 /// How many processes a launcher has started, if it says so.
 #[cfg(any(not(feature = "mpi"), unix))]
 pub(super) fn count_of_ranks() -> Option<usize> {
-    number_in(&COUNTS)
+    let [rank, count] = PMIX;
+    number_in(&COUNTS).or_else(|| number_in(&[rank]).and_then(|_| number_in(&[count])))
 }
 
 /// Whether a launcher has started this process.

@@ -136,6 +136,7 @@ const CALLS: &[BadCall] = &[
     BadCall { status: 2, ..call(&["check", "sizeless.toml"], "Failure::Surface", "sizeless.toml: [grid] size is missing") },
     BadCall { status: 2, ..call(&["run", "good.toml", "--out", "foreign"], "Failure::Output", "foreign") },
     BadCall { environment: &[("OMPI_COMM_WORLD_SIZE", "4")], ..call(&["run", "good.toml"], "Failure::Launched", "a launcher has started 4 processes, and this build of tabor is without the feature `mpi`") },
+    BadCall { environment: &[("PMIX_RANK", "0"), ("SLURM_STEP_NUM_TASKS", "4")], ..call(&["run", "good.toml"], "Failure::Launched", "a launcher has started 4 processes, and this build of tabor is without the feature `mpi`") },
 ];
 
 const fn call(
