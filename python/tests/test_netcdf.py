@@ -54,6 +54,12 @@ def test_xarray_opens_a_run_with_units_and_scene(tmp_path, precision):
     assert ran.returncode == 0, ran.stderr
     written = tabor_program("netcdf", "wave", folder=tmp_path)
     assert written.returncode == 0, written.stderr
+    # A folder without a name of its own is called by the one that it has elsewhere.
+    written = (tmp_path / "wave.nc").read_bytes()
+    (tmp_path / "wave.nc").unlink()
+    here = tabor_program("netcdf", ".", folder=tmp_path / "wave")
+    assert here.returncode == 0, here.stderr
+    assert (tmp_path / "wave.nc").stat().st_size == len(written)
     run = tabor.Run(tmp_path / "wave")
     with xarray.open_dataset(tmp_path / "wave.nc", decode_times=False) as data:
         for name in run.curve.dtype.names:

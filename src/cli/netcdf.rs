@@ -1,5 +1,6 @@
 //! `tabor netcdf`: a run as one self-describing file.
 
+use std::fs;
 use std::path::PathBuf;
 
 use clap::Args;
@@ -19,9 +20,14 @@ pub(super) struct NetcdfArguments {
 /// Writes the file.
 pub(super) fn netcdf(arguments: &NetcdfArguments) -> Result<(), Failure> {
     let beside = || {
-        let mut name = arguments.run.file_name().unwrap_or_default().to_owned();
+        // `.` and `..` have no name of their own.
+        let run = match arguments.run.file_name() {
+            Some(_) => arguments.run.clone(),
+            None => fs::canonicalize(&arguments.run).unwrap_or_else(|_| arguments.run.clone()),
+        };
+        let mut name = run.file_name().unwrap_or_default().to_owned();
         name.push(".nc");
-        arguments.run.with_file_name(name)
+        run.with_file_name(name)
     };
     let file = arguments.out.clone().unwrap_or_else(beside);
     write_netcdf(&arguments.run, &file)?;
