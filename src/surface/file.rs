@@ -215,11 +215,15 @@ pub(super) fn heights_of(
             "the file gives {unit:e} m as the unit of x, which only points x y z and a profile (profile = true) have"
         ));
     }
-    fill_missing(&mut heights, share, scene.fill, boundary, &mut warnings)?;
-
     let is_periodic = boundary == Boundary::Periodic;
+    // Beyond the edges of a patch, which are made to meet or lie apart by its tilt, nothing is known.
+    let wraps = is_periodic
+        && asked.edges == Edges::None
+        && !matches!(scene.detrend, Detrend::Plane | Detrend::Quadratic);
+    fill_missing(&mut heights, share, scene.fill, wraps, &mut warnings)?;
+
     if let Some(times) = asked.outliers {
-        let found = prepare::remove_outliers(&mut heights, share, times, is_periodic)?;
+        let found = prepare::remove_outliers(&mut heights, share, times, wraps)?;
         let all = points[0] * points[1];
         if found.count > 0 {
             warnings.push(format!(
@@ -357,12 +361,12 @@ fn factor_and_zero(
     }
 }
 
-/// Fills missing pixels, or refuses them.
+/// Fills missing pixels, also from across the edges of a map that `wraps`, or refuses them.
 fn fill_missing(
     values: &mut [f64],
     share: &Share,
     fill: Fill,
-    boundary: Boundary,
+    wraps: bool,
     warnings: &mut Vec<String>,
 ) -> Result<(), FileError> {
     let [columns, rows] = share.surface();
@@ -395,7 +399,7 @@ fn fill_missing(
         }
         Fill::Interpolate if count == points => Err(FileError::AllMissing { points }),
         Fill::Interpolate => {
-            fill::interpolate(values, share, boundary == Boundary::Periodic)?;
+            fill::interpolate(values, share, wraps)?;
             warnings.push(format!(
                 "{count} of {points} pixels ({:.2} %) were missing and are interpolated",
                 100.0 * count as f64 / points as f64

@@ -6,7 +6,8 @@ use std::path::{Path, PathBuf};
 
 use approx::assert_relative_eq;
 use tabor::scene::{
-    Boundary, Detrend, Fill, GridScene, HeightFileScene, Roughness, SelfAffineScene, SurfacePart,
+    Boundary, Detrend, Edges, Fill, GridScene, HeightFileScene, Roughness, SelfAffineScene,
+    SurfacePart,
 };
 use tabor::surface::{Surface, SurfaceError};
 
@@ -375,6 +376,48 @@ fn edges_that_do_not_match_get_a_warning_on_a_periodic_grid() {
     part.detrend = Detrend::None;
     let surface = build(part).unwrap();
     assert_eq!(surface.warnings, std::slice::from_ref(tilted));
+}
+
+/// A pixel that is missing at the edge of a tilted map is the mean of its neighbours, or of those beyond the opposite edge where
+/// the map is said to repeat. Those were taken of a patch too whose edges are made to meet.
+#[test]
+fn holes_at_the_edges_of_a_patch_are_filled_from_inside() {
+    let folder = tempfile::tempdir().unwrap();
+    let rows: Vec<String> = (0..16)
+        .map(|y| {
+            let row = (0..16).map(|x| match (x, y) {
+                (0, 5) => "nan ".to_owned(),
+                _ => format!("{x} "),
+            });
+            row.collect()
+        })
+        .collect();
+    let path = write(folder.path(), "hole.txt", rows.join("\n").as_bytes());
+    let mut scene = grid(None);
+    scene.boundary = Boundary::Periodic;
+    let filled = |edges: Edges, detrend: Detrend| {
+        let mut part = file_part(&path);
+        (part.fill, part.detrend, part.preparation.edges) = (Fill::Interpolate, detrend, edges);
+        let surface = Surface::from_parts(&scene, &[SurfacePart::File(part)]).unwrap();
+        surface.heights[5 * surface.grid.nx] - surface.heights[4 * surface.grid.nx]
+    };
+    // Two neighbours at 0 and one at 1, and 15 beyond the edge.
+    assert_relative_eq!(
+        filled(Edges::None, Detrend::None),
+        4.0,
+        max_relative = 1e-12
+    );
+    assert_relative_eq!(
+        filled(Edges::Mirror, Detrend::None),
+        1.0 / 3.0,
+        max_relative = 1e-12
+    );
+    // The plane through the map takes a hundredth of what one pixel is off.
+    assert_relative_eq!(
+        filled(Edges::None, Detrend::Plane),
+        1.0 / 3.0,
+        max_relative = 0.02
+    );
 }
 
 #[test]
