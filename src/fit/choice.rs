@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::advice::Advice;
-use super::curve_file::{ForceCurve, name};
+use super::curve_file::{ForceCurve, Sample, name};
 use super::deviations::Uncertainties;
 use super::error::FitError;
 use super::estimate::{ModelFit, aic_of_baseline, fit_model};
@@ -49,8 +49,10 @@ type Number = fn(&Parameters, &Uncertainties) -> (f64, Option<f64>);
 #[derive(Clone, Debug)]
 #[non_exhaustive]
 pub struct FitResult {
-    /// The curve with its segments.
+    /// The curve with its segments, without the slope of the baseline.
     pub measured: Measured,
+    /// Its points as they were measured.
+    pub as_measured: Vec<Sample>,
     /// Every fitted model, from the simplest.
     pub fits: Vec<ModelFit>,
     /// The chosen one. Its uncertainties of w, E* and first touch are those of the result.
@@ -114,8 +116,8 @@ pub fn fit_curve(
     };
     // The slope is a number of each model; taking out about that of the data lets all that looks at the data see a level
     // baseline.
-    let first = slope::first(&curve.samples, indenter, freedom);
-    let mut measured = Measured::new(slope::without(&curve.samples, first), indenter, freedom);
+    let (samples, first) = slope::about_level(curve, indenter, freedom);
+    let mut measured = Measured::new(samples, indenter, freedom);
     let no_fit = || FitError::NoFit { path: name(path) };
     let mut fits: Vec<ModelFit> = indenter
         .models()
@@ -211,6 +213,7 @@ pub fn fit_curve(
         describes_curve: !misses(&measured, &fits[chosen]),
         spring: curve.spring,
         measured,
+        as_measured: curve.samples.clone(),
         fits,
         chosen,
         tabor_uncertainty: tabor_parameter.and(tabor_uncertainty),

@@ -306,6 +306,11 @@ impl Columns {
         self.across.in_volts
     }
 
+    /// Whether positions are read in place of approaches.
+    pub(super) fn has_positions(&self) -> bool {
+        self.along.quantity == CurveQuantity::Position
+    }
+
     /// Approach and force of a row; `None` where one of them is missing.
     pub(super) fn sample(
         &self,

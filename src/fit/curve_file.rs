@@ -40,6 +40,8 @@ pub struct ForceCurve {
     pub no_time: Option<String>,
     /// Spring constant of the cantilever, N/m, where it is known.
     pub spring: Option<f64>,
+    /// Whether positions of its base were measured, and the approaches are these less the force over the spring constant.
+    pub has_positions: bool,
     /// Whether a sensitivity was given for a table without a deflection in volts.
     pub sensitivity_unused: bool,
 }
@@ -150,6 +152,7 @@ impl ForceCurve {
 
         let mut curve = ForceCurve {
             spring,
+            has_positions: columns.has_positions(),
             sensitivity_unused: sensitivity.is_some() && !columns.in_volts(),
             no_time: columns.no_time.clone(),
             ..ForceCurve::default()

@@ -235,7 +235,7 @@ impl Segment<'_> {
             });
             curve.times.push(start + step * index as f64);
         }
-        curve.spring = Some(spring);
+        (curve.spring, curve.has_positions) = (Some(spring), true);
         Ok(start + duration)
     }
 

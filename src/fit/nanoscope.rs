@@ -130,6 +130,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, how: &CurveColumns) -> Result<Forc
     turn(&mut extension, &mut retraction);
     let mut curve = ForceCurve {
         spring: Some(spring),
+        has_positions: true,
         ..ForceCurve::default()
     };
     let mut add = |deflections: &[f64], is_extension: bool| {

@@ -119,18 +119,19 @@ pub(crate) fn table_head() -> String {
 /// cantilever (empty without a spring constant), both as measured.
 pub fn table(result: &FitResult) -> String {
     let fit = result.best();
-    let slope = result.baseline_slope.map_or(0.0, |slope| slope.value);
     let mut text = table_head();
     for segment in &result.measured.segments {
         for at in segment.points.clone() {
-            let sample = result.measured.samples[at];
-            let baseline = slope * sample.approach;
-            let force = sample.force + baseline;
-            let position = result.spring.map(|spring| sample.approach + force / spring);
+            let sample = result.as_measured[at];
+            // The slope of the baseline, which the fit leaves out.
+            let baseline = sample.force - result.measured.samples[at].force;
+            let position = result
+                .spring
+                .map(|spring| sample.approach + sample.force / spring);
             text += &csv_line([
                 csv_number(Some(sample.approach)),
                 csv_number(position),
-                csv_number(Some(force)),
+                csv_number(Some(sample.force)),
                 csv_number(Some(fit.fitted[at] + baseline)),
                 if segment.loading {
                     "loading"
