@@ -38,6 +38,52 @@ fn a_spring_holds_the_position_of_its_far_end() {
     }
 }
 
+/// A stiff sphere is attracted over a disc of diameter 2 sqrt(2 R range) where it touches. Of 0.8 pixels its pull-off was 8 times 2 pi w R
+/// and of 1.6 twice that, without a word, since the cohesive zone of a crack is 19 and 38 pixels wide; from 10 pixels on it is within 5 %.
+fn attraction_over_few_pixels_is_warned_of() {
+    let folder = scene(
+        r#"
+grid = { points = 64, size = "32 um", boundary = "free" }
+solid = { contact_modulus = "60 GPa" }
+surface = [{ kind = "sphere", radius = "10 um" }]
+adhesion = { law = "maugis-dugdale", work_of_adhesion = "20 mJ/m^2", range = "2 nm" }
+loading = { control = "force", path = ["2 uN"] }
+"#,
+    );
+    let said = |more: &[&str]| {
+        let call = [&["check", "scene.toml"], more].concat();
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        errors(&output)
+    };
+    let lost = said(&[]);
+    assert!(
+        lost.contains("10 % cannot be reached on this grid: a stiff sphere is attracted over a disc about 0.8 pixels wide"),
+        "{lost}"
+    );
+    let few = said(&["--set", "grid.size=\"2.9 um\""]);
+    assert!(
+        few.contains("about 8.8 pixels wide") && !few.contains("cannot be reached"),
+        "{few}"
+    );
+    let enough = said(&["--set", "grid.size=\"2 um\""]);
+    assert!(!enough.contains("pixels wide"), "{enough}");
+    // A law that fades is summed over more pixels.
+    let fading = said(&[
+        "--set",
+        "grid.size=\"2.9 um\"",
+        "--set",
+        "adhesion.law=exponential",
+    ]);
+    assert!(!fading.contains("pixels wide"), "{fading}");
+    // A soft one deforms, and its contact has a width of its own.
+    let soft = said(&["--set", "solid.contact_modulus=\"100 MPa\""]);
+    assert!(!soft.contains("is attracted over a disc"), "{soft}");
+    let rough = "surface=[{ kind = \"self-affine\", hurst = 0.8, rms_height = \"100 nm\", longest = \"32 um\", rolloff = \"16 um\", shortest = \"8 um\" }]";
+    let summits = said(&["--set", "grid.boundary=periodic", "--set", rough]);
+    assert!(summits.contains("a stiff summit is attracted"), "{summits}");
+}
+
 /// The contact grows with the load, as it does at a tolerance that resolves the load.
 fn a_load_is_not_lost_in_the_tolerance_of_a_strong_law() {
     let folder = scene(&format!(
@@ -159,6 +205,7 @@ output = {{ images = [] }}
 
 tests![
     a_jump_that_is_a_guess_is_warned_of,
+    attraction_over_few_pixels_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
