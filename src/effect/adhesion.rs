@@ -34,8 +34,9 @@ const LEAST_TABOR: f64 = 0.8;
 /// measured at Tabor numbers of 0.03 to 0.7: of a law that ends suddenly, and of one that fades.
 const FEW_ATTRACTED: [f64; 2] = [10.0, 6.0];
 const LOST_ATTRACTED: [f64; 2] = [8.0, 5.0];
-/// The same of the summits of a rough surface, below which pull-off is some 25 % off.
-const LOST_SUMMITS: f64 = 4.0;
+/// The same of the summits of a rough surface, below which pull-off is 6 to 58 % off, and up to 217 % too high.
+const FEW_SUMMITS: f64 = 3.5;
+const LOST_SUMMITS: f64 = 2.0;
 
 /// The adhesion of the examples of other effects.
 pub(super) const EXAMPLE: (&str, &str) = (
@@ -236,12 +237,15 @@ fn warning_of_small_reach(plan: &Plan, regime: Regime) -> Option<String> {
     };
     let beyond = "10 % cannot be reached on this grid";
     if plan.outline.sphere_radius.is_none() {
-        return (pixels < LOST_SUMMITS).then(|| {
-            format!(
-                "{beyond}: {}: pull-off is some 25 % off at 3 pixels and 1.5 to 7 times too high at 1; take more points",
-                measured("summit")
-            )
-        });
+        let text = format!(
+            "{}: pull-off is 6 to 58 % off at 3 pixels and 1.5 to 7 times too high at 1; take more points",
+            measured("summit")
+        );
+        return if pixels < LOST_SUMMITS {
+            Some(format!("{beyond}: {text}"))
+        } else {
+            (pixels < FEW_SUMMITS).then_some(text)
+        };
     }
     let errors = [
         "5 % off at 10 pixels, 10 % at 8, 20 % at 5",
