@@ -198,7 +198,8 @@ pub(super) fn surface(arguments: &SurfaceArguments) -> Result<(), Failure> {
         let (surface, boundary, part) = surface_of_file(arguments)?;
         (surface, boundary, Some(part))
     };
-    let report = Report::new(source, &surface, boundary);
+    let mut report = Report::new(source, &surface, boundary);
+    report.is_windowed = arguments.file.edges == Some(Edges::Window);
     let slope = report.statistics.moments.rms_slope();
     let measured = match &part {
         None => None,
