@@ -183,13 +183,21 @@ impl SweepFolder {
             Ok(means) => {
                 write("means.csv", means.table())?;
                 picture(study, &means).write(&self.path.join("means.png"))?;
-                let warning = || {
-                    format!(
-                        "plot.x: finished cases without a number at {}, which are in no mean: {}",
-                        means.x, means.left_out
-                    )
-                };
-                Ok((means.left_out > 0).then(warning))
+                let cases = [
+                    (
+                        "plot.x: ",
+                        format!("a number at {}", means.x),
+                        means.left_out,
+                    ),
+                    ("", means.quantity.clone(), means.lacking),
+                ];
+                let some = cases.iter().filter(|(_, _, count)| *count > 0);
+                let warnings: Vec<String> = some
+                    .map(|(key, what, count)| {
+                        format!("{key}finished cases without {what}, which are in no mean: {count}")
+                    })
+                    .collect();
+                Ok((!warnings.is_empty()).then(|| warnings.join("; ")))
             }
             Err(missing) => {
                 self.remove_means()?;

@@ -27,6 +27,8 @@ pub(super) struct Means {
     pub runs: usize,
     /// Finished cases without a number along x, which are in no mean.
     pub left_out: usize,
+    /// Finished cases with a number along x that lack the quantity, which are in no mean either.
+    pub lacking: usize,
 }
 
 /// The means for one value of the series.
@@ -88,7 +90,7 @@ impl Means {
         });
         let curves: Vec<Curve> = curves.filter(|curve| !curve.points.is_empty()).collect();
         let points = curves.iter().flat_map(|curve| &curve.points);
-        let runs = points.map(|point| point.runs).sum();
+        let runs: usize = points.map(|point| point.runs).sum();
         let is_other =
             |key: &usize| *key != x && Some(*key) != series && distinct(&finished, *key).len() > 1;
         if runs == 0 {
@@ -107,6 +109,7 @@ impl Means {
                 .map(|key| keys[key].to_owned())
                 .collect(),
             curves,
+            lacking: finished.len() - left_out - runs,
             runs,
             left_out,
         })

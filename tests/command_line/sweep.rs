@@ -512,6 +512,22 @@ fn a_plot_of_what_is_not_there_is_warned_of() {
     );
 }
 
+/// A case whose load is still carried has no pull-off, and is in no mean of it.
+fn cases_without_what_is_averaged_are_told() {
+    let place = folder("");
+    let study = "scene = \"scene.toml\"\nset.loading.path = [2e5, 0]\n[[axis]]\nkey = \"loading.path.1\"\nvalues = [1e5, -1e9]\n\
+                 [[axis]]\nkey = \"surface.0.seed\"\nvalues = [1, 2]\n";
+    fs::write(place.path().join("study.toml"), study).expect("written");
+    let call = ["sweep", "study.toml", "--out", "out", "--quiet"];
+    let output = tabor(place.path(), &call);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let said = errors(&output);
+    assert!(
+        said.contains("finished cases without pull_off_force, which are in no mean: 2"),
+        "{said}"
+    );
+}
+
 fn what_is_no_study_is_refused_in_one_message() {
     let axis = "scene = \"scene.toml\"\n[[axis]]\n";
     for (study, expected) in [
@@ -635,5 +651,6 @@ tests![
     a_full_disk_ends_a_study_and_keeps_what_is_finished,
     the_shipped_study_runs,
     a_plot_of_what_is_not_there_is_warned_of,
+    cases_without_what_is_averaged_are_told,
     what_is_no_study_is_refused_in_one_message,
 ];
