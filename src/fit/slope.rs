@@ -64,7 +64,7 @@ pub(super) fn about_level(
     if !freedom.baseline_slope {
         return (curve.samples.clone(), 0.0);
     }
-    let (slope, touch) = first(&curve.samples, indenter, freedom);
+    let (slope, touch, misfit) = first(&curve.samples, indenter, freedom);
     let Some(spring) = curve.spring.filter(|_| curve.has_positions) else {
         return (without(&curve.samples, slope), slope);
     };
@@ -77,7 +77,12 @@ pub(super) fn about_level(
         tilt += by_position(first(&samples, indenter, freedom).0);
     }
     let samples = without_tilt(&curve.samples, tilt, spring, touch);
-    (samples, tilt)
+    // A force of long range that deflects the cantilever is in no approach: what describes the curve better is taken.
+    if first(&samples, indenter, freedom).2 < misfit {
+        (samples, tilt)
+    } else {
+        (without(&curve.samples, slope), slope)
+    }
 }
 
 /// The points without the part of their forces that is `tilt` (N/m) times the position of the base of the cantilever, in their
@@ -93,8 +98,9 @@ fn without_tilt(samples: &[Sample], tilt: f64, spring: f64, touch: f64) -> Vec<S
     samples.iter().map(level).collect()
 }
 
-/// About the slope of the baseline, N/m, and approach and force of first touch: of the best of quick fits with a slope.
-fn first(samples: &[Sample], indenter: Indenter, freedom: Freedom) -> (f64, Sample) {
+/// About the slope of the baseline, N/m, approach and force of first touch, and the sum of squares, N^2: of the best of quick fits with
+/// a slope.
+fn first(samples: &[Sample], indenter: Indenter, freedom: Freedom) -> (f64, Sample, f64) {
     let mut far = samples.to_vec();
     far.sort_by(|a, b| a.approach.total_cmp(&b.approach));
     let slopes = FAR.map(|share| {
@@ -111,11 +117,11 @@ fn first(samples: &[Sample], indenter: Indenter, freedom: Freedom) -> (f64, Samp
                 approach,
                 force: found.force_offset + slope * approach,
             };
-            Some((fit.sum_of_squares, (slope, touch)))
+            Some((slope, touch, fit.sum_of_squares))
         })
     });
-    let best = fits.flatten().min_by(|a, b| a.0.total_cmp(&b.0));
-    best.map_or((slopes[0], samples[0]), |(_, found)| found)
+    let best = fits.flatten().min_by(|a, b| a.2.total_cmp(&b.2));
+    best.unwrap_or((slopes[0], samples[0], f64::INFINITY))
 }
 
 /// The points with a slope taken out.
@@ -209,7 +215,7 @@ mod tests {
         let mut squares = [0.0; 4];
         for seed in 0..seeds {
             let samples = sphere(120, 1.2e-7, 100 + seed).samples;
-            let (tilt, _) = first(&samples, RADIUS.into(), freedom);
+            let (tilt, ..) = first(&samples, RADIUS.into(), freedom);
             let mut measured = Measured::new(without(&samples, tilt), RADIUS, freedom);
             let mut fits = vec![fit_model(&measured, Model::Hertz).unwrap()];
             let slope = level(&mut measured, &mut fits, 0, tilt);
@@ -273,7 +279,7 @@ mod tests {
             baseline_slope: true,
             range: None,
         };
-        let (tilt, _) = first(&curve.samples, RADIUS.into(), freedom);
+        let (tilt, ..) = first(&curve.samples, RADIUS.into(), freedom);
         let measured = Measured::new(without(&curve.samples, tilt), RADIUS, freedom);
         let stated = fit_model(&measured, Model::Hertz).unwrap().uncertainties;
         let expected = shift * stated.baseline_slope.unwrap();
