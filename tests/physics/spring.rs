@@ -50,7 +50,8 @@ fn snaps_where_the_line_touches_the_curve() {
                 .map(move |i| from + (to - from) * i as f64 / count as f64)
                 .collect::<Vec<f64>>()
         };
-        let span = 8.0 * step;
+        // Four times the errors here, and a snap before that is found where the steps begin.
+        let span = 3.0 * step;
         let mut path = vec![inwards - 1.0];
         path.extend(sweep(inwards - span, inwards + span));
         // Back from there in steps that a contact can follow.

@@ -152,8 +152,15 @@ fn displacement(contact: &Contact, pressure: &[f64]) -> Vec<f64> {
     let mut out = vec![0.0; nx * ny];
     for (source, p) in pressure.iter().enumerate().filter(|(_, p)| **p != 0.0) {
         let (sx, sy) = (source % nx, source / nx);
-        for (i, u) in out.iter_mut().enumerate() {
-            *u += table[(i / nx).abs_diff(sy) * nx + (i % nx).abs_diff(sx)] * p;
+        for (y, line) in out.chunks_exact_mut(nx).enumerate() {
+            let away = &table[y.abs_diff(sy) * nx..][..nx];
+            let (left, right) = line.split_at_mut(sx);
+            for (u, share) in left.iter_mut().rev().zip(&away[1..]) {
+                *u += share * p;
+            }
+            for (u, share) in right.iter_mut().zip(away) {
+                *u += share * p;
+            }
         }
     }
     out
