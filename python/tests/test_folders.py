@@ -91,7 +91,7 @@ def test_the_program(tmp_path):
 
 def test_a_sweep(tmp_path):
     (tmp_path / "base.toml").write_text(tabor.Scene({**SCENE, "output": {}}).to_toml())
-    study = {"scene": str(tmp_path / "base.toml"), "axis": [{"key": "surface.0.seed", "values": [1, 2]}, {"key": "surface.0.rms_slope", "values": [0.1, 0.2]}]}
+    study = {"scene": str(tmp_path / "base.toml"), "axis": [{"key": "surface.0.seed", "values": [1, 2]}, {"key": "surface.0.rms_slope", "values": [0.1, 0.15]}]}
     found = tabor.sweep(study, tmp_path / "swept", jobs=1)
     assert len(found["sweep"]) == 8
     assert set(found.tables) >= {"means", "runs", "sweep"}
@@ -333,7 +333,8 @@ def test_scenes_of_arrays_and_tables_are_checked_and_studied(tmp_path, monkeypat
     of_a_file = {**SCENE, "surface": [{"kind": "file", "path": "map.npy"}]}
     assert tabor.Scene(of_a_file).check() == tabor.Contact("map.npy", "4 um", contact_modulus="100 MPa", law=law, loading=loading).check()
     tabor.Scene(SCENE).write("scene.toml")
-    with pytest.warns(tabor.TaborWarning, match="^the shortest wave of the surface has 4.0 pixels"):
+    few = [pytest.warns(tabor.TaborWarning, match=text) for text in ("^the shortest wave of the surface has 4.0 pixels", "^a stiff summit is attracted over a disc")]
+    with few[0], few[1]:
         assert "16 x 16" in tabor.Scene.read("scene.toml", {"grid.points": 16}).check()
     tables = [tabor.compare(scene, tmp_path / f"compared{index}")["compare"] for index, scene in enumerate([of_a_file, tabor.Scene(of_a_file)])]
     np.testing.assert_array_equal(tables[0]["contact_area_fraction"], tables[1]["contact_area_fraction"])

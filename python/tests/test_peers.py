@@ -1,6 +1,7 @@
 """Examples and tests of other codes with their numbers, solved here."""
 
 import json
+from contextlib import nullcontext
 from pathlib import Path
 
 import numpy as np
@@ -96,7 +97,10 @@ def test_tamaas_rough_contact():
 def test_tamaas_examples(example):
     # Its examples of rough contact and of adhesion, with the numbers that it printed.
     expected = json.loads(Path(tamaas_numbers.__file__).with_suffix(".json").read_text())[example]
-    step = tamaas_numbers.solved_by_tabor(example)
+    # Its adhesive summits are attracted over a pixel: a pull-off would count pixels, and the contact under a load is the same.
+    warned = pytest.warns(tabor.TaborWarning, match="a stiff summit is attracted") if example == "adhesion" else nullcontext()
+    with warned:
+        step = tamaas_numbers.solved_by_tabor(example)
     found = tamaas_numbers.numbers(step.pressure, step.contact)
     assert found.pop("points in contact") == expected.pop("points in contact")
     # Both are solved to about 1e-9 of the largest pressure.
