@@ -293,7 +293,7 @@ fn time(setup: &Setup, duration: f64, before: Option<&StepRow>) -> Option<f64> {
 #[derive(Default)]
 struct Found {
     jump: Option<Jump>,
-    /// Whether the jump, or that there is none, is a guess.
+    /// Whether the search ended before it could tell; `jump` is then a guess.
     jump_is_guessed: bool,
     pull_off: Option<pull_off::PullOff>,
     /// Transforms of further solvers.
