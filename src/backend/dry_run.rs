@@ -129,6 +129,10 @@ impl DryRun {
 }
 
 impl Backend for DryRun {
+    fn starts_coarse(&self) -> bool {
+        !self.place.on_gpu()
+    }
+
     fn level(&mut self, name: &'static str, shape: Shape) -> Level {
         let level = Level(self.levels.len());
         self.levels.push(shape);

@@ -136,6 +136,11 @@ pub trait Backend {
     fn look_every(&self) -> usize {
         1
     }
+    /// Whether a cold solve without adhesion gains time by a start from coarser grids: where an iteration takes as long as its
+    /// points do.
+    fn starts_coarse(&self) -> bool {
+        true
+    }
     /// Makes a level and the work space of its transforms.
     fn level(&mut self, name: &'static str, shape: Shape) -> Level;
     /// Makes a level on which nothing is transformed, and which takes no work space where a backend can do

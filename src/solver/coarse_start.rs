@@ -51,9 +51,6 @@ fn refine(
         return Ok(None);
     };
     let mut backend = make_backend();
-    if !backend.suits(coarse.shape) {
-        return Ok(None);
-    }
     let below = refine(&coarse, load, make_backend, watch, levels - 1)?;
     let (start, mut transforms) = match below {
         Some((gap, transforms)) => (Start::Gap(gap), transforms),

@@ -291,7 +291,7 @@ impl<'a> ContactSolver<'a> {
         tolerance: f64,
         careful: bool,
     ) -> Result<(), BackendError> {
-        self.hold_heights();
+        self.hold_heights()?;
         self.set_load(load, tolerance);
         let (prescribed_mean_gap, mean_pressure) = match load.hold {
             Hold::Pressure(pressure) => (false, pressure),
@@ -393,7 +393,7 @@ impl<'a> ContactSolver<'a> {
     ) -> Result<Outcome, BackendError> {
         let helped = match start {
             // The coarse grids do not have the plastic depths.
-            Start::Cold if self.plastic_depths.is_none() => {
+            Start::Cold if self.plastic_depths.is_none() && self.backend.starts_coarse() => {
                 coarse_start::gap(&self.problem, load, make_backend, watch)?
             }
             _ => None,

@@ -1,6 +1,7 @@
 //! The rigid heights of a solve: those of the problem as plastic indentation and the history of the solid have moved them.
 
 use super::contact::ContactSolver;
+use crate::backend::BackendError;
 
 impl ContactSolver<'_> {
     /// Moves the rigid heights by what the history of a viscoelastic solid adds to its displacement (reduced,
@@ -56,12 +57,20 @@ impl ContactSolver<'_> {
         self.backend.release(self.heights);
     }
 
-    /// Hands the heights to where the iterations run.
-    pub(super) fn hold_heights(&mut self) {
-        if !self.has_heights {
-            let heights = self.moved_heights();
-            self.backend.write(self.heights, &heights);
-            self.has_heights = true;
+    /// Hands the heights to where the iterations run: those of the outer state, which may be on the same device, or else the
+    /// problem's.
+    pub(super) fn hold_heights(&mut self) -> Result<(), BackendError> {
+        if self.has_heights {
+            return Ok(());
         }
+        match &mut self.outer {
+            Some(outer) => outer.hand_heights(&mut *self.backend, self.heights)?,
+            None => {
+                let heights = self.moved_heights();
+                self.backend.write(self.heights, &heights);
+            }
+        }
+        self.has_heights = true;
+        Ok(())
     }
 }

@@ -119,6 +119,15 @@ impl OuterState {
         self.backend.write(self.places.heights, heights);
     }
 
+    /// Copies the heights to the iterations.
+    pub fn hand_heights(
+        &mut self,
+        iterating: &mut dyn Backend,
+        heights: Field,
+    ) -> Result<(), BackendError> {
+        iterating.copy_from(heights, &mut *self.backend, self.places.heights)
+    }
+
     /// Sets the factors on the law's tension, one a grid point.
     pub fn set_law_factor(&mut self, problem: &Problem, factor: &[f64]) {
         if let Some(field) = self.places.law_factor {

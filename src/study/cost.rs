@@ -227,7 +227,8 @@ fn plan(
             || problem.boundary == Boundary::Free
             || matches!(scene.loading.control, Control::MeanGap | Control::Approach),
         moves_the_gap: matches!(load.hold, Hold::Gap(_)),
-        starts_coarse: problem.law == Law::HardWall
+        starts_coarse: started.starts_coarse()
+            && problem.law == Law::HardWall
             && problem.boundary == Boundary::Periodic
             && spring.is_none(),
         searches: Searches::new(effects, scene, law),

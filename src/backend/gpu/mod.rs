@@ -299,6 +299,11 @@ impl Backend for GpuBackend {
         self.look_every
     }
 
+    /// On a device a further grid costs more than the ten to thirty iterations that it saves, on grids of any size.
+    fn starts_coarse(&self) -> bool {
+        false
+    }
+
     fn suits(&self, shape: Shape) -> bool {
         self.plan(shape).is_ok()
     }
