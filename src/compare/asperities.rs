@@ -1,5 +1,6 @@
 //! Models of summits: interacting asperities of the height map, and GW-M.
 
+use super::field::separated_pull_off;
 use super::load_scan::{LoadScan, scan_loads};
 use super::table::Table;
 use super::{Comparison, State, Stopped};
@@ -18,12 +19,17 @@ const GW_AREA: f64 = 0.05;
 
 /// Interacting asperities, the law's traction summed over their gap field.
 pub(super) fn icha(comparison: &Comparison, table: &mut Table) -> Result<(), Stopped> {
-    let (setup, law) = (&comparison.setup, comparison.summed_law);
+    let (setup, law) = (&comparison.setup, comparison.treated.law);
     let modulus = setup.scene.solid.contact_modulus;
     let unit = modulus * setup.statistics.moments.rms_slope();
     let surface = Icha::new(setup.surface.grid, &setup.surface.heights)?;
     let mut loading = surface.loading(MergeRule::Volume);
     let mut scan = LoadScan::default();
+    // A weak attraction of stiff summits is greatest where they first touch, or before.
+    let apart = separated_pull_off(&comparison.treated);
+    if let (Some(gap), Some(attraction)) = (apart.mean_gap, apart.adhesive_pressure) {
+        scan.add(0.0, 0.0, gap, attraction);
+    }
     let largest = comparison.loads.last().copied().unwrap_or(0.0);
     let mut ended = None;
     for repulsive in scan_loads(unit, largest, comparison.tension) {

@@ -220,21 +220,8 @@ pub(super) fn dmt(
     make_backend: MakeBackend,
     table: &mut Table,
 ) -> Result<(), CompareError> {
-    let adhesion = comparison
-        .setup
-        .scene
-        .adhesion
-        .clone()
-        .map(|adhesion| AdhesionScene {
-            treatment: Treatment::Dmt,
-            ..adhesion
-        });
-    // The law of the treatment, without the automatic taper, as for the loads below.
-    let treated = Scene {
-        adhesion: adhesion.clone(),
-        ..comparison.setup.scene.clone()
-    };
-    let setup = &Setup::new(treated, comparison.setup.surface.clone());
+    let setup = &comparison.treated;
+    let adhesion = setup.scene.adhesion.clone();
     let law: Law = setup.law;
     let peak = law.peak_tension();
     let unit = setup.scene.solid.contact_modulus * setup.statistics.moments.rms_slope();
@@ -282,7 +269,7 @@ pub(super) fn dmt(
 }
 
 /// The state of greatest tension without contact: the undeformed surfaces at their best clearance.
-fn separated_pull_off(setup: &Setup) -> State {
+pub(super) fn separated_pull_off(setup: &Setup) -> State {
     let (clearance, tension) = greatest_across(setup);
     let statistics = setup.statistics;
     State {

@@ -24,7 +24,7 @@ use crate::law::Law;
 use crate::output::OutputError;
 use crate::scene::{AdhesionScene, Boundary, Scene, SurfacePart, Treatment};
 use crate::solver::MakeBackend;
-use crate::study::{Setup, resolve_law};
+use crate::study::Setup;
 use crate::theory::TheoryError;
 use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use table::Table;
@@ -74,8 +74,9 @@ struct Comparison {
     loads: Vec<f64>,
     /// Work of adhesion over range of the law, Pa; 0 without adhesion.
     tension: f64,
-    /// The law of models that sum the attraction over a gap: that of the DMT treatment, without the automatic taper.
-    summed_law: Law,
+    /// The same with the DMT treatment, whose law, without the automatic taper, is that of models that sum the attraction over
+    /// a gap.
+    treated: Setup,
 }
 
 impl Comparison {
@@ -118,7 +119,7 @@ pub fn compare(
             range if range > 0.0 => setup.law.work_of_adhesion() / range,
             _ => 0.0,
         },
-        summed_law: summed_law(&setup),
+        treated: treated(&setup),
         setup,
     };
     table.begin("full field");
@@ -156,17 +157,17 @@ pub fn compare(
     Ok(Compared { rows, notes })
 }
 
-/// The law of the DMT treatment of a scene, whose automatic taper is 0: no edge is solved for that it would free.
-fn summed_law(setup: &Setup) -> Law {
-    let Some(adhesion) = setup.scene.adhesion.clone() else {
-        return Law::HardWall;
+/// A scene with the DMT treatment. Its automatic taper is 0: no edge is solved for that it would free.
+fn treated(setup: &Setup) -> Setup {
+    let adhesion = setup.scene.adhesion.clone();
+    let scene = Scene {
+        adhesion: adhesion.map(|adhesion| AdhesionScene {
+            treatment: Treatment::Dmt,
+            ..adhesion
+        }),
+        ..setup.scene.clone()
     };
-    let adhesion = AdhesionScene {
-        treatment: Treatment::Dmt,
-        ..adhesion
-    };
-    let pixel = setup.surface.grid.longer_pixel();
-    resolve_law(&adhesion, pixel, setup.scene.solid.contact_modulus, 1.0)
+    Setup::new(scene, setup.surface.clone())
 }
 
 type Model = fn(&Comparison, &mut Table) -> Result<(), Stopped>;

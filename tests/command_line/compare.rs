@@ -31,6 +31,30 @@ control = "pressure"
 path = ["10 MPa", "30 MPa", "60 MPa", "30 MPa"]
 "#;
 
+/// Stiff summits with a weak attraction.
+const STIFF: &str = r#"
+    [grid]
+    points = 64
+    size = "1 um"
+    [solid]
+    contact_modulus = "200 GPa"
+    [[surface]]
+    kind = "self-affine"
+    hurst = 0.8
+    rms_slope = 0.5
+    longest = "1 um"
+    rolloff = "0.5 um"
+    shortest = "0.1 um"
+    seed = 3
+    [adhesion]
+    law = "exponential"
+    work_of_adhesion = "0.1 mJ/m^2"
+    range = "0.5 nm"
+    [loading]
+    control = "pressure"
+    path = ["10 Pa", "10 MPa"]
+"#;
+
 fn rows(path: &Path) -> Vec<Vec<String>> {
     let text = fs::read_to_string(path).expect("there is a table");
     let mut lines = text.lines();
@@ -342,7 +366,26 @@ fn models_say_where_they_end_and_whose_slope_they_have() {
     assert_eq!(icha[8], "load above that of 30 % contact");
 }
 
+/// Stiff summits whose attraction of 69 Pa is a millionth of what presses the first of them: they pull most where they begin to
+/// touch, which ICHA's least load had passed. The undeformed surfaces are the same in both models.
+fn stiff_summits_pull_most_where_they_begin_to_touch() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("stiff.toml"), STIFF).expect("written");
+    let output = tabor(folder.path(), &["compare", "stiff.toml"]);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let rows = rows(&folder.path().join("stiff_compare/compare.csv"));
+    let [icha, dmt] = ["ICHA", "DMT"].map(|model| {
+        let of_model = of(&rows, model);
+        assert_eq!(of_model.len(), 3, "{model}: pull-off and two loads");
+        number(of_model[0], "pull_off_pressure").expect("a pull-off")
+    });
+    assert!(icha > 60.0 && icha < 80.0, "{icha}");
+    // The same sum, in another order.
+    assert!((icha / dmt - 1.0).abs() < 1e-12, "{icha} and {dmt}");
+}
+
 tests![
+    stiff_summits_pull_most_where_they_begin_to_touch,
     models_say_where_they_end_and_whose_slope_they_have,
     summed_attraction_has_no_automatic_taper,
     the_greatest_tension_is_found_behind_a_lesser_one_and_on_the_way_out,

@@ -31,25 +31,37 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         Ok(vec![hertz::contact_radius_at_approach(&hard(x)?, x[2])?])
     }),
     ("hertz.approach", 1, |_, x| {
-        Ok(vec![hertz::approach(&hard(x)?, x[2])])
+        Ok(vec![hertz::approach(&hard(x)?, contact_radius(x[2])?)])
     }),
     ("hertz.force", 1, |_, x| {
-        Ok(vec![hertz::force(&hard(x)?, x[2])])
+        Ok(vec![hertz::force(&hard(x)?, contact_radius(x[2])?)])
     }),
     ("hertz.stiffness", 1, |_, x| {
-        Ok(vec![hertz::stiffness(&hard(x)?, x[2])])
+        Ok(vec![hertz::stiffness(&hard(x)?, contact_radius(x[2])?)])
     }),
     ("hertz.pressure", 1, |_, x| {
-        Ok(vec![hertz::pressure(&hard(x)?, x[2], x[3])])
+        Ok(vec![hertz::pressure(
+            &hard(x)?,
+            contact_radius(x[2])?,
+            x[3],
+        )])
     }),
     ("hertz.displacement", 1, |_, x| {
-        Ok(vec![hertz::displacement(&hard(x)?, x[2], x[3])])
+        Ok(vec![hertz::displacement(
+            &hard(x)?,
+            contact_radius(x[2])?,
+            x[3],
+        )])
     }),
     ("hertz.gap", 1, |_, x| {
-        Ok(vec![hertz::gap(&hard(x)?, x[2], x[3])])
+        Ok(vec![hertz::gap(&hard(x)?, contact_radius(x[2])?, x[3])])
     }),
-    ("cone.force", 1, |_, x| Ok(vec![cone(x)?.force(x[2])])),
-    ("cone.approach", 1, |_, x| Ok(vec![cone(x)?.approach(x[2])])),
+    ("cone.force", 1, |_, x| {
+        Ok(vec![cone(x)?.force(contact_radius(x[2])?)])
+    }),
+    ("cone.approach", 1, |_, x| {
+        Ok(vec![cone(x)?.approach(contact_radius(x[2])?)])
+    }),
     ("cone.contact_radius", 1, |_, x| {
         Ok(vec![cone(x)?.contact_radius(x[2])?])
     }),
@@ -57,7 +69,7 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         Ok(vec![cone(x)?.mean_pressure()])
     }),
     ("cone.pressure", 1, |_, x| {
-        Ok(vec![cone(x)?.pressure(x[2], x[3])])
+        Ok(vec![cone(x)?.pressure(contact_radius(x[2])?, x[3])])
     }),
     ("flat_punch.force", 1, |_, x| {
         Ok(vec![punch_force(x[0], x[1], x[2])?])
@@ -72,7 +84,7 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         )?])
     }),
     ("derjaguin.force", 1, |_, x| {
-        Ok(vec![derjaguin::force(&sphere(x)?, x[3])])
+        Ok(vec![derjaguin::force(&sphere(x)?, contact_radius(x[3])?)])
     }),
     ("dmt.force", 1, |words, x| {
         let sphere = sphere(x)?;
@@ -97,19 +109,23 @@ pub const FUNCTIONS: &[(&str, usize, Evaluate)] = &[
         Ok(vec![jkr::contact_radius_at_approach(&sphere(x)?, x[3])?])
     }),
     ("jkr.approach", 1, |_, x| {
-        Ok(vec![jkr::approach(&sphere(x)?, x[3])])
+        Ok(vec![jkr::approach(&sphere(x)?, contact_radius(x[3])?)])
     }),
     ("jkr.force", 1, |_, x| {
-        Ok(vec![jkr::force(&sphere(x)?, x[3])])
+        Ok(vec![jkr::force(&sphere(x)?, contact_radius(x[3])?)])
     }),
     ("jkr.stiffness", 1, |_, x| {
-        Ok(vec![jkr::stiffness(&sphere(x)?, x[3])])
+        Ok(vec![jkr::stiffness(&sphere(x)?, contact_radius(x[3])?)])
     }),
     ("jkr.pressure", 1, |_, x| {
-        Ok(vec![jkr::pressure(&sphere(x)?, x[3], x[4])])
+        Ok(vec![jkr::pressure(
+            &sphere(x)?,
+            contact_radius(x[3])?,
+            x[4],
+        )])
     }),
     ("jkr.gap", 1, |_, x| {
-        Ok(vec![jkr::gap(&sphere(x)?, x[3], x[4])])
+        Ok(vec![jkr::gap(&sphere(x)?, contact_radius(x[3])?, x[4])])
     }),
     ("jkr.pull_off_force", 1, |_, x| {
         Ok(vec![jkr::pull_off_force(&Sphere::new(x[0], 1.0, x[1])?)])
@@ -425,6 +441,18 @@ fn told<T>(
         },
         other => other,
     })
+}
+
+/// A contact radius, which is not below 0; of no number there is none.
+fn contact_radius(value: f64) -> Result<f64, TheoryError> {
+    if value < 0.0 {
+        return Err(TheoryError::OutOfRange {
+            name: "contact_radius",
+            value,
+            allowed: "zero or more",
+        });
+    }
+    Ok(value)
 }
 
 /// A sphere of (radius, contact modulus).
