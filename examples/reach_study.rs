@@ -1,14 +1,20 @@
-//! Pull-off of stiff spheres against the pixels across the disc over which they are attracted: the table of `docs/solver.md`,
-//! "Accuracy".
+//! Pull-off of stiff spheres and summits against the pixels across the disc over which they are attracted: the tables of
+//! `docs/solver.md`, "Accuracy".
 //!
 //! `cargo run --release --example reach_study` pulls spheres off at five places between the pixels, at Tabor numbers of 0.03, 0.2 and 0.7,
 //! and prints the least and the greatest error of each law, in %: against Maugis 1992 with the Maugis-Dugdale law, and against 24
-//! pixels with the exponential one. A minute on two cores.
+//! pixels with the exponential one. Then rough surfaces, with the radius 2 over their rms curvature, against the same surfaces on
+//! grids of two to eight times the points each way. Four minutes on two cores.
 
 use std::error::Error;
 use std::f64::consts::PI;
+use std::path::Path;
 
 use rayon::prelude::*;
+use tabor::backend::cpu::{self, with_threads};
+use tabor::scene::Scene;
+use tabor::study::{Setup, walk};
+use tabor::surface::Surface;
 use tabor::theory::maugis_dugdale;
 use tabor::theory::tabor_map::{Sphere, maugis_parameter};
 use tabor::{Boundary, Contact, Control, Device, Exponential, MaugisDugdale, State};
@@ -28,6 +34,18 @@ const STEP: f64 = 1.02;
 /// Discs across the grid, and its points at least.
 const MARGIN: f64 = 2.5;
 const LEAST_POINTS: usize = 24;
+
+/// Points of the rough surfaces, each way, and of their shortest waves.
+const ROUGH_POINTS: usize = 64;
+const SHORTEST: usize = 8;
+/// Pixels across the disc on them, and how many times the points the same surface is compared on.
+const ROUGH_PIXELS: [(f64, usize); 4] = [(1.0, 8), (2.0, 4), (3.0, 4), (5.0, 2)];
+const ROUGH_TABOR_NUMBERS: [f64; 3] = [0.05, 0.2, 0.7];
+/// Hurst exponent and seed of each.
+const ROUGH: [(f64, u64); 4] = [(0.5, 1), (0.5, 2), (0.8, 1), (0.8, 2)];
+const ROUGH_MODULUS: f64 = 1e9;
+/// Relative accuracy of their pull-off.
+const ROUGH_ACCURACY: f64 = 0.02;
 
 type Failure = Box<dyn Error + Send + Sync>;
 
@@ -108,6 +126,96 @@ fn cell(law: Law, pixels: f64) -> Result<String, Failure> {
     Ok(format!("{:+.0} to {:+.0}", 100.0 * least, 100.0 * most))
 }
 
+/// A rough surface on so many times the points, pressed to a hundredth of E* times its rms slope and pulled off.
+struct Pulled {
+    /// Radius of its summits, m, as warnings have it: 2 over the rms curvature.
+    radius: f64,
+    /// N.
+    pull_off: f64,
+}
+
+fn pull_rough_off(
+    (hurst, seed): (f64, u64),
+    times: usize,
+    adhesion: &str,
+) -> Result<Pulled, Failure> {
+    let points = ROUGH_POINTS * times;
+    let shortest = SHORTEST as f64 / ROUGH_POINTS as f64;
+    let text = format!(
+        r#"
+        [grid]
+        points = {points}
+        size = "1 um"
+        [solid]
+        contact_modulus = {ROUGH_MODULUS}
+        [[surface]]
+        kind = "self-affine"
+        hurst = {hurst}
+        rms_slope = 0.1
+        longest = "1 um"
+        rolloff = "0.5 um"
+        shortest = "{shortest} um"
+        seed = {seed}
+        {adhesion}
+        [loading]
+        control = "pressure"
+        path = [{}, 0]
+        until = "apart"
+        pull_off_tolerance = {ROUGH_ACCURACY}
+        "#,
+        1e-3 * ROUGH_MODULUS
+    );
+    let scene = Scene::parse(&text, "reach_study", Path::new("."), &[])?;
+    let surface = Surface::build(&scene)?;
+    let setup = Setup::new(scene, surface);
+    let radius = setup.statistics.moments.mean_radius().ok_or("no summits")?;
+    if adhesion.is_empty() {
+        let pull_off = 0.0;
+        return Ok(Pulled { radius, pull_off });
+    }
+    let cpu = || cpu::double(None);
+    let end = with_threads(Some(1), || walk(&setup, &cpu, &mut ()))??;
+    let least = end
+        .rows
+        .iter()
+        .map(|row| row.force)
+        .fold(0.0, f64::min);
+    let found = end.pull_off.map_or(-least, |found| found.lower.max(-least));
+    Ok(Pulled {
+        radius,
+        pull_off: found,
+    })
+}
+
+/// The least and the greatest error over surfaces and Tabor numbers.
+fn rough_cell(law: Law, pixels: f64, times: usize) -> Result<String, Failure> {
+    let cases: Vec<((f64, u64), f64)> = ROUGH
+        .iter()
+        .flat_map(|surface| ROUGH_TABOR_NUMBERS.map(|tabor| (*surface, tabor)))
+        .collect();
+    let errors = cases
+        .into_par_iter()
+        .map(|(surface, tabor)| {
+            let radius = pull_rough_off(surface, 1, "")?.radius;
+            let pixel = 1e-6 / ROUGH_POINTS as f64;
+            let range = (0.5 * pixels * pixel).powi(2) / (2.0 * radius);
+            let work = ROUGH_MODULUS * ((tabor * range).powi(3) / radius).sqrt();
+            let name = match law {
+                Law::MaugisDugdale => "maugis-dugdale",
+                Law::Exponential => "exponential",
+            };
+            let adhesion = format!(
+                "[adhesion]\nlaw = \"{name}\"\nwork_of_adhesion = {work:e}\nrange = {range:e}"
+            );
+            let [coarse, fine] = [1, times].map(|times| pull_rough_off(surface, times, &adhesion));
+            Ok(coarse?.pull_off / fine?.pull_off - 1.0)
+        })
+        .collect::<Result<Vec<f64>, Failure>>()?;
+    let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = errors.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    Ok(format!("{:+.0} to {:+.0}", 100.0 * least, 100.0 * most))
+}
+
 fn main() -> Result<(), Failure> {
     let laws = [
         ("Maugis-Dugdale", Law::MaugisDugdale),
@@ -126,6 +234,18 @@ fn main() -> Result<(), Failure> {
     println!("| pixels across the disc | {head} |");
     println!("|---|{}", "---|".repeat(PIXELS.len()));
     for ((name, _), row) in laws.iter().zip(found.chunks(PIXELS.len())) {
+        println!("| {name} | {} |", row.join(" | "));
+    }
+    let head = ROUGH_PIXELS
+        .map(|(pixels, _)| pixels.to_string())
+        .join(" | ");
+    println!("\n| pixels across a summit's disc | {head} |");
+    println!("|---|{}", "---|".repeat(ROUGH_PIXELS.len()));
+    for (name, law) in laws {
+        let row = ROUGH_PIXELS
+            .iter()
+            .map(|(pixels, times)| rough_cell(law, *pixels, *times))
+            .collect::<Result<Vec<_>, _>>()?;
         println!("| {name} | {} |", row.join(" | "));
     }
     Ok(())

@@ -34,7 +34,7 @@ const LEAST_TABOR: f64 = 0.8;
 /// measured at Tabor numbers of 0.03 to 0.7: of a law that ends suddenly, and of one that fades.
 const FEW_ATTRACTED: [f64; 2] = [10.0, 6.0];
 const LOST_ATTRACTED: [f64; 2] = [8.0, 5.0];
-/// The same of the summits of a rough surface, below which pull-off is 6 to 58 % off, and up to 217 % too high.
+/// The same of the summits of a rough surface, below which pull-off is up to 53 % off, and up to 170 %.
 const FEW_SUMMITS: f64 = 3.5;
 const LOST_SUMMITS: f64 = 2.0;
 
@@ -238,7 +238,7 @@ fn warning_of_small_reach(plan: &Plan, regime: Regime) -> Option<String> {
     let beyond = "10 % cannot be reached on this grid";
     if plan.outline.sphere_radius.is_none() {
         let text = format!(
-            "{}: pull-off is 6 to 58 % off at 3 pixels and 1.5 to 7 times too high at 1; take more points",
+            "{}: pull-off is up to 14 % off at 5 pixels, 53 % at 3, and 2 to 8 times too high at 1; take more points",
             measured("summit")
         );
         return if pixels < LOST_SUMMITS {
