@@ -175,11 +175,7 @@ fn pull_rough_off(
     }
     let cpu = || cpu::double(None);
     let end = with_threads(Some(1), || walk(&setup, &cpu, &mut ()))??;
-    let least = end
-        .rows
-        .iter()
-        .map(|row| row.force)
-        .fold(0.0, f64::min);
+    let least = end.rows.iter().map(|row| row.force).fold(0.0, f64::min);
     let found = end.pull_off.map_or(-least, |found| found.lower.max(-least));
     Ok(Pulled {
         radius,

@@ -61,6 +61,7 @@ pub(super) fn plot(arguments: &PlotArguments) -> Result<(), Failure> {
     }
     warn_of_unconverged(&runs);
     expect_points(&pairs, &runs)?;
+    expect_one_unit(&pairs, &runs)?;
     warn_of_empty(&pairs, &runs);
     let figure = Figure {
         names: names(&arguments.runs),
@@ -102,6 +103,26 @@ fn expect_points(pairs: &[[String; 2]], runs: &[Table]) -> Result<(), Failure> {
         run.path.display(),
         with_numbers.join(", ")
     )))
+}
+
+/// Refuses a picture of a column that has two units, as the conductance of heat and that of a current.
+fn expect_one_unit(pairs: &[[String; 2]], runs: &[Table]) -> Result<(), Failure> {
+    for name in pairs.iter().flatten() {
+        let unit = |run: &Table| Some(run.columns[run.place(name)?].unit);
+        let mut with_units = runs
+            .iter()
+            .filter_map(|run| Some((run.path.display(), unit(run)?)))
+            .filter(|(_, unit)| !unit.is_empty());
+        let Some((one, unit)) = with_units.next() else {
+            continue;
+        };
+        if let Some((other, its)) = with_units.find(|(_, its)| *its != unit) {
+            return Err(Failure::Usage(format!(
+                "{name} is in {unit} in {one} and in {its} in {other}; draw them apart"
+            )));
+        }
+    }
+    Ok(())
 }
 
 /// Says which rows are left out, as the picture of a run leaves them out.

@@ -5,11 +5,13 @@ use std::fmt;
 use serde_json::{Value, json};
 
 use super::memory_check::MemoryError;
+use super::warnings::{greatest_force, is_loose};
 use crate::backend::BackendError;
 use crate::backend::ranks::RankError;
 use crate::device::{DeviceError, SelectedDevice};
 use crate::effect::Effect;
 use crate::output::{Effects, OutputError, Seconds, Summary, peak_memory_bytes};
+use crate::scene::LoadingScene;
 use crate::study::{
     Setup, StepRow, Tension, Unreachable, WalkEnd, count_of_steps, largest_contact,
 };
@@ -105,6 +107,15 @@ pub struct RunEnd {
 }
 
 impl RunEnd {
+    /// Whether pull-off is known no better than between two loads that are further apart than asked, since one between them did
+    /// not converge.
+    pub(crate) fn pull_off_is_loose(&self, loading: &LoadingScene) -> bool {
+        let bounds = self.summary.pull_off_lower.zip(self.summary.pull_off_upper);
+        bounds.is_some_and(|(lower, upper)| {
+            is_loose(loading, [lower, upper], greatest_force(&self.rows))
+        })
+    }
+
     /// The end of a path.
     pub(super) fn new(setup: &Setup, end: WalkEnd, summary: Summary) -> Self {
         let status = match end.rows.last() {

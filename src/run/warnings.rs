@@ -94,11 +94,22 @@ fn hysteresis(end: &WalkEnd, tolerance: f64) -> Option<String> {
     })
 }
 
+/// The greatest force of a path, N.
+pub(super) fn greatest_force(rows: &[StepRow]) -> f64 {
+    rows.iter().map(|row| row.force.abs()).fold(0.0, f64::max)
+}
+
+/// Whether the loads that pull-off lies between, on a path whose greatest force is `greatest`, are further apart than asked.
+pub(super) fn is_loose(loading: &LoadingScene, [lower, upper]: [f64; 2], greatest: f64) -> bool {
+    loading.pull_off_tolerance > 0.0
+        && upper > ROUNDING * greatest
+        && upper - lower > (loading.pull_off_tolerance + ROUNDING) * upper
+}
+
 /// A warning if the pull-off of a finished path is not known to the tolerance.
 fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
-    let forces = end.rows.iter().map(|row| row.force.abs());
-    let greatest = forces.fold(0.0, f64::max);
+    let greatest = greatest_force(&end.rows);
     let tension = Tension::at_end(loading, end);
     match tension {
         Tension::Passed { step, force } if tension.is_cut_off(loading, &end.rows) => Some(format!(
@@ -125,9 +136,7 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
             ))
         }
         Tension::LetGo(PullOff { lower, upper, .. })
-            if loading.pull_off_tolerance > 0.0
-                && upper > ROUNDING * greatest
-                && upper - lower > (loading.pull_off_tolerance + ROUNDING) * upper =>
+            if is_loose(loading, [lower, upper], greatest) =>
         {
             Some(format!(
                 "pull-off lies between {} and {}, and is known no better: a load between them did not converge; allow more max_iterations",

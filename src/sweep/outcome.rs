@@ -87,7 +87,7 @@ pub(super) fn last_of(column: &str) -> String {
 pub enum Status {
     /// Every step is solved.
     Finished,
-    /// The last row did not reach the tolerance.
+    /// The last row did not reach the tolerance, or pull-off is not known as closely as asked.
     NotConverged,
     /// There is no result.
     Failed,
@@ -142,6 +142,9 @@ impl Outcome {
                     "step {step} did not converge: residual {residual:.1e} after {iterations} iterations, asked {tolerance:.1e}"
                 ),
             ),
+            _ if end.pull_off_is_loose(&scene.loading) => {
+                (Status::NotConverged, end.summary.warnings.join("; "))
+            }
             _ => (Status::Finished, end.summary.warnings.join("; ")),
         };
         let rows = end.rows.iter().map(|row| format_row(row, &columns));

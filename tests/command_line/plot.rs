@@ -256,6 +256,21 @@ fn a_conductance_has_the_unit_of_what_is_conducted() {
         let svg = fs::read_to_string(path.join("plot.svg")).expect("a picture");
         assert!(svg.contains(unit), "{svg}");
     }
+    // Both in one picture have no common axis.
+    fs::write(path.join("heat.csv"), "approach,conductance\n1,2\n").expect("written");
+    let call = [
+        "plot",
+        "heat.csv",
+        "curve.csv",
+        "--x",
+        "approach",
+        "--y",
+        "conductance",
+    ];
+    let output = tabor(path, &call);
+    assert_eq!(output.status.code(), Some(2), "{}", errors(&output));
+    let words = "conductance is in W/K in heat.csv and in S in curve.csv; draw them apart";
+    assert!(errors(&output).contains(words), "{}", errors(&output));
 }
 
 /// A step that did not converge is told and not drawn: it would stretch the axis to 900 N.

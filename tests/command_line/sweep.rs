@@ -30,6 +30,29 @@ control = "pressure"
 path = ["0.2 MPa", "1 MPa", "-5 MPa"]
 "#;
 
+/// Rough surfaces that let go within the last step, in which some loads take more than 30 iterations.
+const LETS_GO: &str = r#"
+[grid]
+points = 32
+size = "4 um"
+[solid]
+contact_modulus = "40 MPa"
+[[surface]]
+kind = "self-affine"
+hurst = 0.8
+rms_height = "80 nm"
+longest = "4 um"
+rolloff = "2 um"
+shortest = "1 um"
+[adhesion]
+law = "maugis-dugdale"
+work_of_adhesion = "50 mJ/m^2"
+range = "40 nm"
+[loading]
+control = "pressure"
+path = ["100 kPa", "1 MPa", "0 Pa", "-1 MPa"]
+"#;
+
 const STUDY: &str = r#"
 title = "Slope and adhesion"
 scene = "scene.toml"
@@ -307,6 +330,39 @@ fn a_case_that_did_not_converge_is_solved_again() {
     // The first case stands as it was.
     let kept = fs::read_to_string(place.path().join("out/cases_1of2.jsonl")).expect("a case");
     assert_eq!(first, kept);
+}
+
+/// Pull-off between two loads, one of which did not converge, is no result: more iterations find it.
+fn a_case_whose_pull_off_is_not_known_as_asked_is_solved_again() {
+    let study = r#"
+        scene = "scene.toml"
+        [set]
+        solver.max_iterations = 30
+        [[axis]]
+        key = "surface.0.seed"
+        values = [1]
+    "#;
+    let folder = folder(study);
+    let path = folder.path();
+    fs::write(path.join("scene.toml"), LETS_GO).expect("written");
+    let bounds = |row: &HashMap<String, String>| {
+        ["pull_off_lower", "pull_off_upper"].map(|name| row[name].parse::<f64>().expect("a force"))
+    };
+    let output = tabor(path, &["sweep", "study.toml", "--out", "out"]);
+    assert_eq!(output.status.code(), Some(3), "{}", errors(&output));
+    let row = &rows(&path.join("out/runs.csv"))[0];
+    assert_eq!(row["status"], "not-converged");
+    assert!(row["message"].contains("did not converge; allow more max_iterations"));
+    let [lower, upper] = bounds(row);
+    assert!(upper > 1.01 * lower, "{lower} to {upper}");
+    let set = ["--set", "solver.max_iterations=5000"];
+    let again = [&["sweep", "study.toml", "--out", "out"][..], &set].concat();
+    let output = tabor(path, &again);
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let row = &rows(&path.join("out/runs.csv"))[0];
+    assert_eq!(row["status"], "finished");
+    let [lower, upper] = bounds(row);
+    assert!(upper <= 1.01 * lower, "{lower} to {upper}");
 }
 
 /// Folders that are asked for once their cases are finished are not made, and that is said.
@@ -646,6 +702,7 @@ tests![
     a_killed_study_repeats_no_finished_case,
     a_case_that_fails_is_listed_and_the_others_are_solved,
     a_case_that_did_not_converge_is_solved_again,
+    a_case_whose_pull_off_is_not_known_as_asked_is_solved_again,
     axes_take_lists_files_and_several_keys,
     folders_of_cases_that_are_finished_are_told_to_be_missing,
     a_full_disk_ends_a_study_and_keeps_what_is_finished,

@@ -6,6 +6,9 @@ use crate::units::{Dimension, name_and_unit, parse_quantity, quoted};
 /// What comments begin with.
 const COMMENT: [char; 5] = ['#', '%', '/', ' ', '\t'];
 
+/// What stands between heads, besides the brackets of their units.
+const BETWEEN_HEADS: [char; 5] = [' ', '\t', ',', ';', '"'];
+
 /// Names of heights in the head of a single column.
 const HEIGHTS: [&str; 8] = [
     "z",
@@ -16,6 +19,21 @@ const HEIGHTS: [&str; 8] = [
     "topo",
     "elevation",
     "depth",
+];
+
+/// Comments that Gwyddion writes above the numbers.
+const GWYDDION_ENTRIES: usize = 4;
+
+/// Words in the names of lengths that are not those of a map's sides.
+const OTHER_LENGTHS: [&str; 8] = [
+    "offset",
+    "origin",
+    "position",
+    "resolution",
+    "spacing",
+    "step",
+    "pitch",
+    "pixel",
 ];
 
 /// What comments say.
@@ -39,6 +57,10 @@ pub(super) struct Remarks {
     comments: Vec<Heads>,
     /// The values of the last three comments of the form `name: value`, as a length and as a unit.
     last: [(Option<f64>, Option<f64>); 3],
+    /// How many there are.
+    entries: usize,
+    /// Whether one is named as a distance that is no width or height.
+    has_other_lengths: bool,
 }
 
 impl Remarks {
@@ -47,9 +69,12 @@ impl Remarks {
         Some([self.width?, self.height?])
     }
 
-    /// Reads the heads of the columns, `x [um], y [um], z [nm]`.
+    /// Reads the heads of the columns, `x [um], y [um], z [nm]` or `x/um; y/um; z/nm` or `x_um, y_um, z_nm`.
     pub fn take_heads(&mut self, line: &str) {
         self.heads = Heads::new(line);
+        if !line.contains(['[', '(']) {
+            self.heads.units = line.split(BETWEEN_HEADS).filter_map(bare_unit).collect();
+        }
     }
 
     /// Reads a comment above the numbers, which may hold these heads: how many columns there are is not known yet.
@@ -67,8 +92,17 @@ impl Remarks {
 
     /// Whether the heads of so many columns name x and y, so that the columns hold points.
     pub fn names_points(&self, columns: usize) -> bool {
-        let of_columns = self.heads_with_units(columns);
-        self.heads.are_points || of_columns.is_some_and(|heads| heads.are_points)
+        self.named_axes(columns).is_some()
+    }
+
+    /// Whether the heads of so many columns name y before x.
+    pub fn names_y_first(&self, columns: usize) -> bool {
+        self.named_axes(columns) == Some([1, 0])
+    }
+
+    fn named_axes(&self, columns: usize) -> Option<[usize; 2]> {
+        let of_columns = || self.heads_with_units(columns)?.axes;
+        self.heads.axes.or_else(of_columns)
     }
 
     /// The heads of so many columns, if each has a unit: the header's, or those of a comment.
@@ -99,6 +133,7 @@ impl Remarks {
     pub fn lateral_units(&self, columns: usize) -> Option<[f64; 2]> {
         let of_heads = match self.column_units(columns) {
             Some([x, _]) => Some([*x; 2]),
+            Some([y, x, _]) if self.names_y_first(columns) => Some([*x, *y]),
             Some([x, y, _]) => Some([*x, *y]),
             _ => None,
         };
@@ -137,6 +172,10 @@ impl Remarks {
             _ => {}
         }
         self.last = [self.last[1], self.last[2], (length, unit)];
+        self.entries += 1;
+        let mut words = name.split(|c: char| !c.is_alphabetic());
+        self.has_other_lengths |=
+            words.any(|word| OTHER_LENGTHS.contains(&word.to_ascii_lowercase().as_str()));
         self.take_by_order();
     }
 
@@ -168,9 +207,10 @@ impl Remarks {
         }
     }
 
-    /// Gwyddion writes width, height and unit in this order, with names in the language of its user.
+    /// Gwyddion writes channel, width, height and unit in this order above all else, with names in the language of its user.
     fn take_by_order(&mut self) {
-        if self.width.is_some() || self.height.is_some() {
+        let is_known = self.width.is_some() || self.height.is_some();
+        if is_known || self.has_other_lengths || self.entries != GWYDDION_ENTRIES {
             return;
         }
         if let [(Some(width), _), (Some(height), _), (_, Some(unit))] = self.last {
@@ -186,15 +226,15 @@ impl Remarks {
 struct Heads {
     /// Metres in the units of length.
     units: Vec<f64>,
-    /// Whether the first two columns are named x and y.
-    are_points: bool,
+    /// The axes of the first two columns, if these are named x and y.
+    axes: Option<[usize; 2]>,
 }
 
 impl Heads {
     fn new(line: &str) -> Self {
         Heads {
             units: units(line),
-            are_points: are_points(line),
+            axes: axes(line),
         }
     }
 }
@@ -230,17 +270,28 @@ fn unit(head: &str) -> Option<f64> {
     length_unit(name_and_unit(head).1?)
 }
 
-/// Whether the first two of the heads in a line are x and y.
-fn are_points(line: &str) -> bool {
+/// Metres in the unit behind the last stroke or underscore of a head, `Z/\u{b5}m`, if it is one of length.
+fn bare_unit(head: &str) -> Option<f64> {
+    let (name, unit) = head.trim().rsplit_once(['/', '_'])?;
+    let is_name = name.starts_with(char::is_alphabetic);
+    length_unit(unit).filter(|_| is_name)
+}
+
+/// The axes that the first two of the heads in a line name, if these are x and y: 0 and 1, or 1 and 0.
+fn axes(line: &str) -> Option<[usize; 2]> {
     let mut names = line
-        .split([' ', '\t', ',', ';', '"'])
+        .split(BETWEEN_HEADS)
         .filter(|word| !word.is_empty() && !word.starts_with(['[', '(']));
-    let mut is = |axis: char| {
-        let name = names.next().unwrap_or_default().to_ascii_lowercase();
-        name.strip_prefix(axis)
-            .is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+    let mut axis = || {
+        let name = names.next()?.to_ascii_lowercase();
+        let is = |axis: &char| {
+            name.strip_prefix(*axis)
+                .is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
+        };
+        ['x', 'y'].iter().position(is)
     };
-    is('x') && is('y')
+    let axes = [axis()?, axis()?];
+    (axes[0] != axes[1]).then_some(axes)
 }
 
 /// A positive length with its unit, m.

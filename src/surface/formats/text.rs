@@ -45,13 +45,11 @@ struct Line<'a> {
 pub(super) fn read(file: Bytes) -> Result<Map, FileError> {
     let opening = file.opening();
     let (text, mut matrix) = open(file)?;
-    // A size in the comments means that this is a matrix of heights.
-    if matrix.size.is_none() {
-        match xyz::as_grid(&text, &matrix, opening)? {
-            Points::Grid(map) => return Ok(map),
-            Points::Unlikely => {}
-            Points::Likely(warning) => matrix.warnings.push(warning),
-        }
+    match xyz::as_grid(&text, &matrix, opening)? {
+        Points::Grid(map) => return Ok(map),
+        // A size in the comments is that of a matrix of heights.
+        Points::Likely(warning) if matrix.size.is_none() => matrix.warnings.push(warning),
+        Points::Likely(_) | Points::Unlikely => {}
     }
     let columns = matrix.columns;
     if text.remarks.leaves_units(columns, columns == 2) {
@@ -246,6 +244,15 @@ impl Text {
         numbers: &Matrix,
         take: &mut dyn FnMut(usize, [f64; 3]) -> Result<(), NoGrid>,
     ) -> Result<(), NoGrid> {
+        let y_first = self.remarks.names_y_first(3);
+        let mut take = |row: usize, [one, other, z]: [f64; 3]| {
+            let point = if y_first {
+                [other, one, z]
+            } else {
+                [one, other, z]
+            };
+            take(row, point)
+        };
         let (kept, _) = numbers.values.as_chunks();
         for (row, point) in kept.iter().enumerate() {
             take(row + 1, *point)?;

@@ -272,6 +272,15 @@ fn sizes_are_read_in_any_language() {
         assert_eq!(matrix.size, Some(Size::Metres([5e-6, 8e-9])), "{head}");
         assert_eq!(matrix.unit, Some(1e-9), "{head}");
     }
+    // Other lengths in a row are no sides, and Gwyddion's four comments stand above all others.
+    for head in [
+        "# Channel: Z\n# X offset: 5 um\n# Y offset: 6 um\n# Z units: nm\n",
+        "# X Resolution: 500 nm\n# Y Resolution: 500 nm\n# Z units: nm\n",
+        "# A: b\n# Scan size: 24 um\n# From: 5 um\n# To: 6 um\n# Z units: nm\n",
+    ] {
+        let matrix = read_map(format!("{head}1 2\n3 4\n").as_bytes()).unwrap();
+        assert_eq!((matrix.size, matrix.unit), (None, None), "{head}");
+    }
     let other = "# Kanal: Topo\n# Breite: 5 um\n# H\u{f6}he: 8 nm\n# Value units: V\n1 2\n3 4\n";
     let matrix = read_map(other.as_bytes()).unwrap();
     assert_eq!((matrix.size, matrix.unit), (None, None));
@@ -344,6 +353,27 @@ fn heads_of_columns_state_units() {
     }
     let map = read_map(format!("x [um],y [mm],z [nm]\n{points}").as_bytes()).unwrap();
     assert_eq!(map.size, Some(Size::Metres([2.0 * 1e-6, 2.0 * 1e-3])));
+    // Without brackets in a header, behind a stroke or an underscore.
+    for head in [
+        "X/um;Y/mm;Z/nm",
+        "x_um, y_mm, height_nm",
+        "x/um\ty/mm\tz/nm",
+    ] {
+        let map = read_map(format!("{head}\n{points}").as_bytes()).unwrap();
+        assert_eq!(map.size, Some(Size::Metres([2.0 * 1e-6, 2.0 * 1e-3])));
+        assert_eq!((map.unit, map.warnings.len()), (Some(1e-9), 0), "{head}");
+    }
+    // In the order y, x.
+    let map =
+        read_map(b"y [mm],x [um],z [nm]\n0,0,1\n0,1,2\n0,2,3\n1,0,4\n1,1,5\n1,2,6\n").unwrap();
+    assert_eq!([map.rows, map.columns], [2, 3]);
+    assert_eq!(map.values, [1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
+    assert_eq!(map.size, Some(Size::Metres([3.0 * 1e-6, 2.0 * 1e-3])));
+    // The size in a comment is that of the map which the points form.
+    let sized = format!("# Width: 3 um\n# Height: 2 um\n# Value units: nm\n{points}");
+    let map = read_map(sized.as_bytes()).unwrap();
+    assert_eq!([map.rows, map.columns], [2, 2]);
+    assert_eq!(map.size, Some(Size::Metres([3e-6, 2e-6])));
     // A comment in Gwyddion's form is more definite.
     let named = format!("# Value units: pm\nx [um],y [um],z [nm]\n{points}");
     assert_eq!(read_map(named.as_bytes()).unwrap().unit, Some(1e-12));

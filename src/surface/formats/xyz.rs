@@ -145,10 +145,14 @@ fn gridded(text: &Text, points: &Matrix, opening: Opening) -> Result<Map, NoGrid
     let steps = [x.step, y.step];
     let [of_x, of_y] = [0, 1].map(|axis| if steps[axis] > 0.0 { axis } else { 1 - axis });
     let sides = [steps[of_x] * x.count as f64, steps[of_y] * y.count as f64];
-    let size = (sides[0] > 0.0).then(|| match text.remarks().lateral_units(3) {
+    let of_places = || match text.remarks().lateral_units(3) {
         Some(units) => Size::Metres([sides[0] * units[of_x], sides[1] * units[of_y]]),
         None => Size::LikeHeights(sides),
-    });
+    };
+    let size = match points.size {
+        Some(stated) => Some(stated),
+        None => (sides[0] > 0.0).then(of_places),
+    };
     let leaves_units = text.remarks().leaves_units(3, true);
     let mut warnings: Vec<String> = text.remarks().other_unit().into_iter().collect();
     warnings.extend(leaves_units.then(|| text::UNITS_LEFT.to_owned()));
