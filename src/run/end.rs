@@ -109,7 +109,7 @@ pub struct RunEnd {
 impl RunEnd {
     /// Whether pull-off is known no better than between two loads that are further apart than asked, since one between them did
     /// not converge.
-    pub(crate) fn pull_off_is_loose(&self, loading: &LoadingScene) -> bool {
+    pub fn pull_off_is_loose(&self, loading: &LoadingScene) -> bool {
         let bounds = self.summary.pull_off_lower.zip(self.summary.pull_off_upper);
         bounds.is_some_and(|(lower, upper)| {
             is_loose(loading, [lower, upper], greatest_force(&self.rows))
