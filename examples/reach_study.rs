@@ -113,32 +113,27 @@ fn reference(law: Law, tabor: f64) -> Result<f64, Failure> {
     }
 }
 
+/// The least and the greatest of errors, in %.
+fn span(errors: &[f64]) -> String {
+    let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
+    let most = errors.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+    format!("{:+.0} to {:+.0}", 100.0 * least, 100.0 * most)
+}
+
 /// The least and the greatest error over Tabor numbers and places.
 fn cell(law: Law, pixels: f64) -> Result<String, Failure> {
-    let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+    let mut errors = Vec::new();
     for tabor in TABOR_NUMBERS {
         let right = reference(law, tabor)?;
         for place in PLACES {
-            let error = pull_off(law, tabor, pixels, place)? / right - 1.0;
-            (least, most) = (least.min(error), most.max(error));
+            errors.push(pull_off(law, tabor, pixels, place)? / right - 1.0);
         }
     }
-    Ok(format!("{:+.0} to {:+.0}", 100.0 * least, 100.0 * most))
+    Ok(span(&errors))
 }
 
-/// A rough surface on so many times the points, pressed to a hundredth of E* times its rms slope and pulled off.
-struct Pulled {
-    /// Radius of its summits, m, as warnings have it: 2 over the rms curvature.
-    radius: f64,
-    /// N.
-    pull_off: f64,
-}
-
-fn pull_rough_off(
-    (hurst, seed): (f64, u64),
-    times: usize,
-    adhesion: &str,
-) -> Result<Pulled, Failure> {
+/// A rough surface on so many times the points, with these tables, pressed to a hundredth of E* times its rms slope and pulled off.
+fn rough((hurst, seed): (f64, u64), times: usize, tables: &str) -> Result<Setup, Failure> {
     let points = ROUGH_POINTS * times;
     let shortest = SHORTEST as f64 / ROUGH_POINTS as f64;
     let text = format!(
@@ -156,7 +151,7 @@ fn pull_rough_off(
         rolloff = "0.5 um"
         shortest = "{shortest} um"
         seed = {seed}
-        {adhesion}
+        {tables}
         [loading]
         control = "pressure"
         path = [{}, 0]
@@ -167,20 +162,15 @@ fn pull_rough_off(
     );
     let scene = Scene::parse(&text, "reach_study", Path::new("."), &[])?;
     let surface = Surface::build(&scene)?;
-    let setup = Setup::new(scene, surface);
-    let radius = setup.statistics.moments.mean_radius().ok_or("no summits")?;
-    if adhesion.is_empty() {
-        let pull_off = 0.0;
-        return Ok(Pulled { radius, pull_off });
-    }
+    Ok(Setup::new(scene, surface))
+}
+
+/// The greatest tension that its path holds, N.
+fn rough_pull_off(setup: &Setup) -> Result<f64, Failure> {
     let cpu = || cpu::double(None);
-    let end = with_threads(Some(1), || walk(&setup, &cpu, &mut ()))??;
+    let end = with_threads(Some(1), || walk(setup, &cpu, &mut ()))??;
     let least = end.rows.iter().map(|row| row.force).fold(0.0, f64::min);
-    let found = end.pull_off.map_or(-least, |found| found.lower.max(-least));
-    Ok(Pulled {
-        radius,
-        pull_off: found,
-    })
+    Ok(end.pull_off.map_or(-least, |found| found.lower.max(-least)))
 }
 
 /// The least and the greatest error over surfaces and Tabor numbers.
@@ -192,7 +182,9 @@ fn rough_cell(law: Law, pixels: f64, times: usize) -> Result<String, Failure> {
     let errors = cases
         .into_par_iter()
         .map(|(surface, tabor)| {
-            let radius = pull_rough_off(surface, 1, "")?.radius;
+            // As warnings have it: 2 over the rms curvature.
+            let moments = rough(surface, 1, "")?.statistics.moments;
+            let radius = moments.mean_radius().ok_or("no summits")?;
             let pixel = 1e-6 / ROUGH_POINTS as f64;
             let range = (0.5 * pixels * pixel).powi(2) / (2.0 * radius);
             let work = ROUGH_MODULUS * ((tabor * range).powi(3) / radius).sqrt();
@@ -203,13 +195,12 @@ fn rough_cell(law: Law, pixels: f64, times: usize) -> Result<String, Failure> {
             let adhesion = format!(
                 "[adhesion]\nlaw = \"{name}\"\nwork_of_adhesion = {work:e}\nrange = {range:e}"
             );
-            let [coarse, fine] = [1, times].map(|times| pull_rough_off(surface, times, &adhesion));
-            Ok(coarse?.pull_off / fine?.pull_off - 1.0)
+            let [coarse, fine] =
+                [1, times].map(|times| rough_pull_off(&rough(surface, times, &adhesion)?));
+            Ok(coarse? / fine? - 1.0)
         })
         .collect::<Result<Vec<f64>, Failure>>()?;
-    let least = errors.iter().copied().fold(f64::INFINITY, f64::min);
-    let most = errors.iter().copied().fold(f64::NEG_INFINITY, f64::max);
-    Ok(format!("{:+.0} to {:+.0}", 100.0 * least, 100.0 * most))
+    Ok(span(&errors))
 }
 
 fn main() -> Result<(), Failure> {

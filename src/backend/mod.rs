@@ -136,8 +136,8 @@ pub trait Backend {
     fn look_every(&self) -> usize {
         1
     }
-    /// Whether a cold solve without adhesion gains time by a start from coarser grids: where an iteration takes as long as its
-    /// points do.
+    /// Whether a cold solve without adhesion gains time by a start from coarser grids: where an iteration takes time in
+    /// proportion to its points.
     fn starts_coarse(&self) -> bool {
         true
     }

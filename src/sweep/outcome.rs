@@ -142,10 +142,13 @@ impl Outcome {
                     "step {step} did not converge: residual {residual:.1e} after {iterations} iterations, asked {tolerance:.1e}"
                 ),
             ),
-            _ if end.pull_off_is_loose(&scene.loading) => {
-                (Status::NotConverged, end.summary.warnings.join("; "))
+            _ => {
+                let status = match end.pull_off_is_loose(&scene.loading) {
+                    true => Status::NotConverged,
+                    false => Status::Finished,
+                };
+                (status, end.summary.warnings.join("; "))
             }
-            _ => (Status::Finished, end.summary.warnings.join("; ")),
         };
         let rows = end.rows.iter().map(|row| format_row(row, &columns));
         Outcome {

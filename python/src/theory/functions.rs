@@ -443,7 +443,7 @@ fn told<T>(
     })
 }
 
-/// A contact radius, which is not below 0; of no number there is none.
+/// A contact radius; one below 0 is refused.
 fn contact_radius(value: f64) -> Result<f64, TheoryError> {
     if value < 0.0 {
         return Err(TheoryError::OutOfRange {

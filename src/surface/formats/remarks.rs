@@ -270,7 +270,7 @@ fn unit(head: &str) -> Option<f64> {
     length_unit(name_and_unit(head).1?)
 }
 
-/// Metres in the unit behind the last stroke or underscore of a head, `Z/\u{b5}m`, if it is one of length.
+/// Metres in the unit behind the last slash or underscore of a head, `Z/\u{b5}m`, if it is one of length.
 fn bare_unit(head: &str) -> Option<f64> {
     let (name, unit) = head.trim().rsplit_once(['/', '_'])?;
     let is_name = name.starts_with(char::is_alphabetic);

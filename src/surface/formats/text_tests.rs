@@ -353,7 +353,7 @@ fn heads_of_columns_state_units() {
     }
     let map = read_map(format!("x [um],y [mm],z [nm]\n{points}").as_bytes()).unwrap();
     assert_eq!(map.size, Some(Size::Metres([2.0 * 1e-6, 2.0 * 1e-3])));
-    // Without brackets in a header, behind a stroke or an underscore.
+    // Without brackets in a header, behind a slash or an underscore.
     for head in [
         "X/um;Y/mm;Z/nm",
         "x_um, y_mm, height_nm",

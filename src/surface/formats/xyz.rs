@@ -149,10 +149,7 @@ fn gridded(text: &Text, points: &Matrix, opening: Opening) -> Result<Map, NoGrid
         Some(units) => Size::Metres([sides[0] * units[of_x], sides[1] * units[of_y]]),
         None => Size::LikeHeights(sides),
     };
-    let size = match points.size {
-        Some(stated) => Some(stated),
-        None => (sides[0] > 0.0).then(of_places),
-    };
+    let size = points.size.or_else(|| (sides[0] > 0.0).then(of_places));
     let leaves_units = text.remarks().leaves_units(3, true);
     let mut warnings: Vec<String> = text.remarks().other_unit().into_iter().collect();
     warnings.extend(leaves_units.then(|| text::UNITS_LEFT.to_owned()));
