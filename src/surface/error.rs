@@ -362,6 +362,23 @@ pub enum FileError {
         /// What is wrong.
         what: String,
     },
+    /// Places of a profile that are not at equal distances.
+    #[error(
+        "the distances between the places of the profile are not equal: place {place} is {value}; a profile has one line of heights, or \
+         two of places at equal distances and heights"
+    )]
+    UnevenPlaces {
+        /// The first that is elsewhere, from 1.
+        place: usize,
+        /// Where it is, in its unit.
+        value: f64,
+    },
+    /// A profile of heights and places without heads that say so.
+    #[error(
+        "the second of its two lines seems to be that of places, since its distances are equal: put the places first, or give the columns \
+         heads such as z [nm], x [um]"
+    )]
+    PlacesBehindHeights,
     /// A grey image without the heights of black and white.
     #[error(
         "this is a grey image: write black and white, the heights of its ends (black = 0, white = \"1 um\")"

@@ -21,6 +21,8 @@ pub(super) struct Matrix<V = Vec<f64>> {
     pub(super) unit: Option<f64>,
     /// Metres per unit of the places of a profile, if the file states it.
     pub(super) lateral_unit: Option<f64>,
+    /// The column of the places of a profile in two columns, if their heads name it.
+    pub(super) places: Option<usize>,
     /// Whether the numbers are shades of grey, from 0 (black) to 1 (white).
     pub(super) grey: bool,
     /// Warnings for the user.
@@ -40,6 +42,7 @@ impl<V> Matrix<V> {
             size: None,
             unit: None,
             lateral_unit: None,
+            places: None,
             grey: false,
             warnings: Vec::new(),
         }
@@ -54,6 +57,7 @@ impl<V> Matrix<V> {
             size: self.size,
             unit: self.unit,
             lateral_unit: self.lateral_unit,
+            places: self.places,
             grey: self.grey,
             warnings: self.warnings,
         };

@@ -56,16 +56,16 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
             }
         }
     }
-    let length = match &found[..] {
-        [places, _] if lines == 2 => length(places),
+    let length = match lines {
+        2 => length(&mut found, &header)?,
         _ => None,
     };
-    let heights = found.swap_remove(usize::from(length.is_some()));
     if length.is_none() && lines > 1 {
         header.warnings.push(format!(
             "of {lines} lines the first is the profile; a profile has one line of heights, or two of places at equal distances and heights"
         ));
     }
+    let heights = found.swap_remove(0);
     header.size = match (length, header.size) {
         (Some(length), _) => Some(match header.lateral_unit {
             Some(unit) => Size::Metres([length * unit; 2]),
@@ -75,22 +75,59 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
         (None, Some(Size::LikeHeights([x, y]))) => Some(Size::LikeHeights([x.max(y); 2])),
         (None, None) => None,
     };
-    header.lateral_unit = None;
+    (header.lateral_unit, header.places) = (None, None);
     (header.rows, header.columns) = (1, count);
     Ok(header.with(heights))
 }
 
-/// Length of a profile at these places, if their distances are equal.
-fn length(places: &[f64]) -> Option<f64> {
-    let (first, last) = (places.first()?, places.last()?);
-    let step = (last - first) / (places.len() as f64 - 1.0);
-    let mut numbered = places.iter().enumerate();
-    // Rounding to few digits moves each place, however many steps lie before it; as of points on a grid.
-    let is_even = |(index, place): (usize, &f64)| {
-        (place - first - index as f64 * step).abs() <= UNEVEN * step.abs()
+/// Length of a profile of two lines, if one is of places: its heights come first then, in the order of rising places. `None` for
+/// two lines of heights.
+///
+/// # Errors
+/// Places whose distances are not equal; places behind the heights, without heads that say so.
+fn length(lines: &mut [Vec<f64>], header: &Matrix<()>) -> Result<Option<f64>, FileError> {
+    let places = header.places.unwrap_or(0);
+    let step = match step(&lines[places]) {
+        Ok(step) => step,
+        Err(_) if header.places.is_none() && step(&lines[1]).is_ok() => {
+            return Err(FileError::PlacesBehindHeights);
+        }
+        Err(place) => {
+            let are_places = header.places.is_some() || header.lateral_unit.is_some();
+            return match are_places || is_monotonic(&lines[places]) {
+                true => Err(FileError::UnevenPlaces {
+                    place: place + 1,
+                    value: lines[places][place],
+                }),
+                false => Ok(None),
+            };
+        }
     };
-    let equal = step != 0.0 && numbered.all(is_even);
-    equal.then(|| step.abs() * places.len() as f64)
+    lines.swap(0, 1 - places);
+    if step < 0.0 {
+        lines[0].reverse();
+    }
+    Ok(Some(step.abs() * lines[0].len() as f64))
+}
+
+/// Distance between places, negative if they fall; or the first whose distances to the others are not equal, from 0.
+fn step(places: &[f64]) -> Result<f64, usize> {
+    let (first, last) = (places[0], places[places.len() - 1]);
+    let step = (last - first) / (places.len() as f64 - 1.0);
+    // Rounding to few digits moves each place, however many steps lie before it; as of points on a grid.
+    let is_even = |index: usize, place: f64| {
+        step != 0.0 && (place - first - index as f64 * step).abs() <= UNEVEN * step.abs()
+    };
+    let mut numbered = places.iter().enumerate();
+    let uneven = numbered.find(|(index, place)| !is_even(*index, **place));
+    uneven.map_or(Ok(step), |(index, _)| Err(index))
+}
+
+/// Whether numbers rise all the way, or fall.
+fn is_monotonic(numbers: &[f64]) -> bool {
+    let falls = |pair: &[f64]| pair[0] > pair[1];
+    let rises = |pair: &[f64]| pair[0] < pair[1];
+    numbers.windows(2).all(falls) || numbers.windows(2).all(rises)
 }
 
 /// Refuses the part of so many points along x and y from `[x, y]` on that is not within a map of so many columns and rows.
@@ -369,6 +406,40 @@ mod tests {
         );
     }
 
+    /// Places are not taken for heights.
+    #[test]
+    fn places_without_equal_distances_are_refused() {
+        let uneven = |values: Vec<f64>, places, lateral_unit| {
+            let map = Matrix {
+                places,
+                lateral_unit,
+                ..Matrix::new(values, [4, 2])
+            };
+            to_profile(map.into()).map(|found| found.values)
+        };
+        let rising = vec![0.0, 3.0, 0.5, 4.0, 9.0, 6.0, 10.0, 2.0];
+        let rough = vec![0.0, 3.0, 0.5, 4.0, 0.4, 6.0, 1.5, 2.0];
+        for (values, places, unit, place) in [
+            (&rising, None, None, 2),
+            (&rough, Some(0), None, 3),
+            (&rough, None, Some(1e-6), 3),
+            (&rough, Some(1), None, 2),
+        ] {
+            let error = uneven(values.clone(), places, unit).unwrap_err();
+            let found = matches!(error, FileError::UnevenPlaces { place: at, .. } if at == place);
+            assert!(found, "{error}");
+        }
+        let heights = uneven(rough.clone(), None, None).unwrap();
+        assert_eq!(heights, [0.0, 0.5, 0.4, 1.5]);
+        let behind: Vec<f64> = [5.0, 2.0, 4.0, 3.0]
+            .iter()
+            .zip(0..)
+            .flat_map(|(height, place)| [*height, f64::from(place)])
+            .collect();
+        let error = uneven(behind, None, None).unwrap_err();
+        assert!(matches!(error, FileError::PlacesBehindHeights), "{error}");
+    }
+
     #[test]
     fn profiles_have_one_line_or_places_too() {
         let profile = |values: Vec<f64>, shape| to_profile(Matrix::new(values, shape).into());
@@ -381,9 +452,11 @@ mod tests {
         assert!(lines.warnings.is_empty());
         let rows = profile(vec![0.0, 0.5, 1.0, 3.0, 4.0, 6.0], [2, 3]).unwrap();
         assert_eq!(rows, lines);
-        let uneven = profile(vec![0.0, 3.0, 0.5, 4.0, 9.0, 6.0], [3, 2]).unwrap();
+        let falling = profile(vec![1.0, 6.0, 0.5, 4.0, 0.0, 3.0], [3, 2]).unwrap();
+        assert_eq!(falling, lines);
+        let heights = profile(vec![2.0, 3.0, 0.5, 4.0, 9.0, 6.0], [3, 2]).unwrap();
         assert_eq!(
-            (uneven.values[2], uneven.size, uneven.warnings.len()),
+            (heights.values[2], heights.size, heights.warnings.len()),
             (9.0, None, 1)
         );
         // Places of few digits: 1/3 is moved by 1 % of a step.
@@ -401,6 +474,14 @@ mod tests {
         };
         let found = to_profile(places.into()).unwrap();
         assert_eq!(found.size, Some(Size::Metres([1.5 * 1e-3; 2])));
+        // Heights before places.
+        let behind = Matrix {
+            unit: Some(1e-9),
+            lateral_unit: Some(1e-3),
+            places: Some(1),
+            ..Matrix::new(vec![3.0, 0.0, 4.0, 0.5, 6.0, 1.0], [3, 2])
+        };
+        assert_eq!(to_profile(behind.into()).unwrap(), found);
         // Points on one line have pixels as wide as long; the profile is as wide as long.
         for (sides, shape) in [([6.0, 1.5], [1, 4]), ([1.5, 6.0], [4, 1])] {
             let line = Matrix {

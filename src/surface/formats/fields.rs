@@ -124,6 +124,8 @@ pub(super) struct Marks {
     several: bool,
     /// Whether all commas are decimal marks.
     decimal_commas: bool,
+    /// Whether a comma stands before a zero and more digits, as in a fraction, not a number of its own.
+    fractions: bool,
 }
 
 impl Default for Marks {
@@ -135,6 +137,7 @@ impl Default for Marks {
             blanks: false,
             several: false,
             decimal_commas: true,
+            fractions: false,
         }
     }
 }
@@ -152,14 +155,15 @@ impl Marks {
         self.blanks |= line.contains(' ');
         self.several |= line.split_whitespace().nth(1).is_some();
         self.decimal_commas &= !comma || line.split_whitespace().all(has_decimal_comma);
+        self.fractions |= comma && line.split(',').skip(1).any(is_fraction);
     }
 
     /// The separator of the file: the first of semicolon, comma, tab, blanks that it uses.
     pub(super) fn separator(&self) -> Separator {
         if self.semicolons {
             Separator::Semicolon
-        } else if self.commas && !(self.several && self.decimal_commas) {
-            // A single `1,5` on each line is taken as two numbers.
+        } else if self.commas && !(self.decimal_commas && (self.several || self.fractions)) {
+            // A single `1,5` on each line is taken as two numbers, if no line has `1,05`.
             Separator::Comma
         } else if self.tabs && !self.blanks {
             Separator::Tab
@@ -177,6 +181,13 @@ fn has_decimal_comma(word: &str) -> bool {
             && !fraction.contains([',', '.'])
             && !whole.contains('.')
     })
+}
+
+/// Whether the digits behind a comma begin with a zero that no whole number has: `05`.
+fn is_fraction(digits: &str) -> bool {
+    digits
+        .strip_prefix('0')
+        .is_some_and(|rest| rest.starts_with(|c: char| c.is_ascii_digit()))
 }
 
 /// What some programs write for one missing number in two words.

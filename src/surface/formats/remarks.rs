@@ -9,7 +9,7 @@ const COMMENT: [char; 5] = ['#', '%', '/', ' ', '\t'];
 /// What stands between heads, besides the brackets of their units.
 const BETWEEN_HEADS: [char; 5] = [' ', '\t', ',', ';', '"'];
 
-/// Names of heights in the head of a single column.
+/// Names of heights in the head of a column.
 const HEIGHTS: [&str; 8] = [
     "z",
     "h",
@@ -90,19 +90,29 @@ impl Remarks {
         self.comments.push(heads);
     }
 
-    /// Whether the heads of so many columns name x and y, so that the columns hold points.
-    pub fn names_points(&self, columns: usize) -> bool {
-        self.named_axes(columns).is_some()
+    /// The columns of x, y and z, if the heads of so many columns name x and y, so that the columns hold points.
+    pub fn named_points(&self, columns: usize) -> Option<[usize; 3]> {
+        self.named_columns(columns, Heads::points)
     }
 
-    /// Whether the heads of so many columns name y before x.
-    pub fn names_y_first(&self, columns: usize) -> bool {
-        self.named_axes(columns) == Some([1, 0])
+    /// The columns of the places and the heights of a profile, if the heads of two columns name both.
+    pub fn named_profile(&self) -> Option<[usize; 2]> {
+        self.named_columns(2, Heads::profile)
     }
 
-    fn named_axes(&self, columns: usize) -> Option<[usize; 2]> {
-        let of_columns = || self.heads_with_units(columns)?.axes;
-        self.heads.axes.or_else(of_columns)
+    fn named_columns<T>(&self, columns: usize, named: impl Fn(&Heads) -> Option<T>) -> Option<T> {
+        let of_columns = || named(self.heads_with_units(columns)?);
+        named(&self.heads).or_else(of_columns)
+    }
+
+    /// The columns of the numbers of points or a profile behind those of their places.
+    fn order(&self, columns: usize) -> [usize; 3] {
+        match (columns, self.named_points(columns), self.named_profile()) {
+            (2, _, Some([place, height])) => [place, place, height],
+            (2, ..) => [0, 0, 1],
+            (_, Some(order), _) => order,
+            _ => [0, 1, columns - 1],
+        }
     }
 
     /// The heads of so many columns, if each has a unit: the header's, or those of a comment.
@@ -119,22 +129,21 @@ impl Remarks {
         self.heads_with_units(columns).map(|heads| &heads.units[..])
     }
 
-    /// Metres per unit of the numbers in so many columns; of a profile or points those of the last.
+    /// Metres per unit of the numbers in so many columns; of a profile or points that of the heights.
     pub fn number_unit(&self, columns: usize, has_places: bool) -> Option<f64> {
         let of_heads = self.column_units(columns).and_then(|units| {
-            let (last, others) = units.split_last()?;
-            let is_last = has_places || others.iter().all(|unit| unit == last);
-            is_last.then_some(*last)
+            let unit = units[self.order(columns)[2]];
+            let is_that = has_places || units.iter().all(|other| *other == unit);
+            is_that.then_some(unit)
         });
         self.unit.or(of_heads)
     }
 
     /// Metres per unit of x and y of a profile or points in so many columns.
     pub fn lateral_units(&self, columns: usize) -> Option<[f64; 2]> {
+        let [x, y, _] = self.order(columns);
         let of_heads = match self.column_units(columns) {
-            Some([x, _]) => Some([*x; 2]),
-            Some([y, x, _]) if self.names_y_first(columns) => Some([*x, *y]),
-            Some([x, y, _]) => Some([*x, *y]),
+            Some(units @ ([_, _] | [_, _, _])) => Some([units[x], units[y]]),
             _ => None,
         };
         self.lateral_unit.map(|unit| [unit; 2]).or(of_heads)
@@ -226,16 +235,43 @@ impl Remarks {
 struct Heads {
     /// Metres in the units of length.
     units: Vec<f64>,
-    /// The axes of the first two columns, if these are named x and y.
-    axes: Option<[usize; 2]>,
+    /// What the columns hold, where each has one head.
+    named: Vec<Option<Named>>,
+}
+
+/// What a head names.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Named {
+    X,
+    Y,
+    Heights,
 }
 
 impl Heads {
     fn new(line: &str) -> Self {
         Heads {
             units: units(line),
-            axes: axes(line),
+            named: named(line),
         }
+    }
+
+    fn column(&self, wanted: Named) -> Option<usize> {
+        self.named.iter().position(|named| *named == Some(wanted))
+    }
+
+    /// The columns of x, y and what the third is, if x and y are named.
+    fn points(&self) -> Option<[usize; 3]> {
+        let [x, y] = [self.column(Named::X)?, self.column(Named::Y)?];
+        let z = (0..3).find(|column| ![x, y].contains(column))?;
+        // Of other names it is not known which words are one head.
+        (z == 2 || self.named.len() == 3).then_some([x, y, z])
+    }
+
+    /// The columns of places and heights, if a head names the heights, or x and y, which are the heights then.
+    fn profile(&self) -> Option<[usize; 2]> {
+        let y = || self.column(Named::X).and(self.column(Named::Y));
+        let heights = self.column(Named::Heights).or_else(y)?;
+        (self.named.len() == 2).then(|| [1 - heights, heights])
     }
 }
 
@@ -277,21 +313,25 @@ fn bare_unit(head: &str) -> Option<f64> {
     length_unit(unit).filter(|_| is_name)
 }
 
-/// The axes that the first two of the heads in a line name, if these are x and y: 0 and 1, or 1 and 0.
-fn axes(line: &str) -> Option<[usize; 2]> {
-    let mut names = line
-        .split(BETWEEN_HEADS)
-        .filter(|word| !word.is_empty() && !word.starts_with(['[', '(']));
-    let mut axis = || {
-        let name = names.next()?.to_ascii_lowercase();
-        let is = |axis: &char| {
-            name.strip_prefix(*axis)
-                .is_some_and(|rest| !rest.starts_with(char::is_alphanumeric))
-        };
-        ['x', 'y'].iter().position(is)
+/// What the heads in a line name, each by its first word.
+fn named(line: &str) -> Vec<Option<Named>> {
+    let between: &[char] = match line.contains([',', ';', '\t']) {
+        true => &[',', ';', '\t'],
+        false => &[' '],
     };
-    let axes = [axis()?, axis()?];
-    (axes[0] != axes[1]).then_some(axes)
+    let heads = line
+        .split(between)
+        .map(|head| head.trim_matches(BETWEEN_HEADS))
+        .filter(|head| !head.is_empty() && !head.starts_with(['[', '(']));
+    let named = heads.map(|head| {
+        let word = head.split(|c: char| !c.is_alphanumeric()).next()?;
+        match word.to_ascii_lowercase().as_str() {
+            "x" => Some(Named::X),
+            "y" => Some(Named::Y),
+            word => HEIGHTS.contains(&word).then_some(Named::Heights),
+        }
+    });
+    named.collect()
 }
 
 /// A positive length with its unit, m.

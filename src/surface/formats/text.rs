@@ -231,6 +231,11 @@ impl Text {
                 .lateral_units(columns)
                 .filter(|_| columns == 2 || rows == 2)
                 .map(|[x, _]| x),
+            places: self
+                .remarks
+                .named_profile()
+                .filter(|_| columns == 2)
+                .map(|[places, _]| places),
             ..Matrix::new(values, [rows, columns])
         })
     }
@@ -244,15 +249,8 @@ impl Text {
         numbers: &Matrix,
         take: &mut dyn FnMut(usize, [f64; 3]) -> Result<(), NoGrid>,
     ) -> Result<(), NoGrid> {
-        let y_first = self.remarks.names_y_first(3);
-        let mut take = |row: usize, [one, other, z]: [f64; 3]| {
-            let point = if y_first {
-                [other, one, z]
-            } else {
-                [one, other, z]
-            };
-            take(row, point)
-        };
+        let order = self.remarks.named_points(3).unwrap_or([0, 1, 2]);
+        let mut take = |row: usize, point: [f64; 3]| take(row, order.map(|column| point[column]));
         let (kept, _) = numbers.values.as_chunks();
         for (row, point) in kept.iter().enumerate() {
             take(row + 1, *point)?;

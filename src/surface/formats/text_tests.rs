@@ -392,6 +392,70 @@ fn heads_of_columns_state_units() {
     }
 }
 
+/// Columns come in the order of their heads.
+#[test]
+fn heads_name_the_columns() {
+    let grid = [[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]];
+    for order in [
+        [0, 1, 2],
+        [0, 2, 1],
+        [1, 0, 2],
+        [1, 2, 0],
+        [2, 0, 1],
+        [2, 1, 0],
+    ] {
+        for heads in [
+            ["x [um]", "y [mm]", "z [nm]"],
+            ["X position [um]", "Y position [mm]", "Height [nm]"],
+            ["X/um", "Y/mm", "Z/nm"],
+        ] {
+            let mut text = order.map(|column| heads[column]).join(",") + "\n";
+            for (y, row) in grid.iter().enumerate() {
+                for (x, z) in row.iter().enumerate() {
+                    let point = [format!("{}", 2 * x), format!("{}", 3 * y), format!("{z}")];
+                    text += &(order.map(|column| point[column].as_str()).join(",") + "\n");
+                }
+            }
+            let map = read_map(text.as_bytes()).unwrap();
+            assert_eq!(map.values, grid.concat(), "{text}");
+            assert_eq!(
+                map.size,
+                Some(Size::Metres([6.0 * 1e-6, 6.0 * 1e-3])),
+                "{text}"
+            );
+            assert_eq!((map.unit, map.warnings.len()), (Some(1e-9), 0), "{text}");
+        }
+    }
+    // Which of more words are the heads of three columns is not known.
+    let words = read_map(b"x position y position z\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n").unwrap();
+    assert_eq!(words.values, [1.0, 2.0, 3.0, 4.0]);
+    // Of a profile.
+    for (head, places) in [
+        ("Z [nm],X [um]", Some(1)),
+        ("Height (nm); Distance (um)", Some(1)),
+        ("y/nm, x/um", Some(1)),
+        ("x [um], z [nm]", Some(0)),
+        ("Distance [um], height [nm]", Some(0)),
+        ("Weg [um], H\u{f6}he [nm]", None),
+    ] {
+        let map = read_map(format!("{head}\n1,2\n3,4\n").as_bytes()).unwrap();
+        assert_eq!(map.places, places, "{head}");
+        assert_eq!(
+            (map.unit, map.lateral_unit),
+            (Some(1e-9), Some(1e-6)),
+            "{head}"
+        );
+    }
+}
+
+/// One column of numbers with decimal commas is not two.
+#[test]
+fn a_zero_behind_a_comma_belongs_to_a_fraction() {
+    assert_eq!(numbers("0,5\n-1,05\n2,25\n"), (3, 1, vec![0.5, -1.05, 2.25]));
+    assert_eq!(numbers("0,5\n1,0\n2,25\n").1, 2);
+    assert_eq!(numbers("0,5,05\n1,0,1\n").1, 3);
+}
+
 /// A comment with brackets is the heads of columns only if it has a unit for each.
 #[test]
 fn brackets_in_comments_are_no_heads_of_other_columns() {

@@ -77,7 +77,7 @@ pub(super) fn as_grid(
     opening: Opening,
 ) -> Result<Points, FileError> {
     let (rows, columns) = (numbers.rows, numbers.columns);
-    let are_named = text.remarks().names_points(columns);
+    let are_named = text.remarks().named_points(columns).is_some();
     if !matches!(columns, 3 | 4) || rows < 4 {
         return Ok(Points::Unlikely);
     }

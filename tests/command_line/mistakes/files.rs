@@ -86,6 +86,8 @@ fn table() -> Vec<BadFile> {
         bad("packed.sur", &[&b"DSCOMPRESSED"[..], &[0; 600]].concat(), "FileError::NotSupported", "compressed .sur files are not in this version; save it without compression"),
         bad("volts.gsf", b"Gwyddion Simple Field 1.0\nXRes = 1\nYRes = 1\nZUnits = V\n\0\0\0\0\0", "FileError::NotALength", "the file gives its heights in \"V\", which is not a length"),
         bad("pairs.xyz", b"1 2\n3 4\n", "FileError::NotAGrid", "the points x, y, z do not form a grid: its lines have 2 numbers"),
+        BadFile { name: "profile.txt", bytes: b"0 5\n1 7\n3 4\n4 5\n".to_vec(), more: "profile = true", variant: "FileError::UnevenPlaces", expected: "the distances between the places of the profile are not equal: place 2 is 1; a profile has one line of heights, or two of places at equal distances and heights" },
+        BadFile { name: "behind.txt", bytes: b"5 0\n7 1\n4 2\n5 3\n".to_vec(), more: "profile = true", variant: "FileError::PlacesBehindHeights", expected: "the second of its two lines seems to be that of places, since its distances are equal: put the places first" },
         bad("grey.png", GREY, "FileError::GreyEndsMissing", "this is a grey image: write black and white, the heights of its ends"),
         BadFile { name: "even.png", bytes: GREY.to_vec(), more: "black = 1\nwhite = 1", variant: "FileError::GreyEndsEqual", expected: "black and white are both 1e0 m: an image of one height" },
         good("black = 0\nwhite = 1", "FileError::GreyEndsUnused", "black and white are for grey images; this file holds heights"),
