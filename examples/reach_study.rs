@@ -4,7 +4,8 @@
 //! `cargo run --release --example reach_study` pulls spheres off at five places between the pixels, at Tabor numbers of 0.03, 0.2 and 0.7,
 //! and prints the least and the greatest error of each law, in %: against Maugis 1992 with the Maugis-Dugdale law, and against 24
 //! pixels with the exponential one. Then rough surfaces, with the radius 2 over their rms curvature, against the same surfaces on
-//! grids of two to eight times the points each way. Four minutes on two cores.
+//! grids of two to eight times the points each way; and the same with the Maugis-Dugdale law by chi and by their rms height over the
+//! range. Ten minutes on two cores.
 
 use std::error::Error;
 use std::f64::consts::PI;
@@ -15,6 +16,7 @@ use tabor::backend::cpu::{self, with_threads};
 use tabor::scene::Scene;
 use tabor::study::{Setup, walk};
 use tabor::surface::Surface;
+use tabor::surface::spectrum::SpectralMoments;
 use tabor::theory::maugis_dugdale;
 use tabor::theory::tabor_map::{Sphere, maugis_parameter};
 use tabor::{Boundary, Contact, Control, Device, Exponential, MaugisDugdale, State};
@@ -39,11 +41,16 @@ const LEAST_POINTS: usize = 24;
 const ROUGH_POINTS: usize = 64;
 const SHORTEST: usize = 8;
 /// Pixels across the disc on them, and how many times the points the same surface is compared on.
-const ROUGH_PIXELS: [(f64, usize); 4] = [(1.0, 8), (2.0, 4), (3.0, 4), (5.0, 2)];
+const ROUGH_PIXELS: [(f64, usize); 5] = [(1.0, 8), (2.0, 4), (3.0, 4), (4.0, 4), (5.0, 2)];
 const ROUGH_TABOR_NUMBERS: [f64; 3] = [0.05, 0.2, 0.7];
 /// Hurst exponent and seed of each.
 const ROUGH: [(f64, u64); 4] = [(0.5, 1), (0.5, 2), (0.8, 1), (0.8, 2)];
 const ROUGH_MODULUS: f64 = 1e9;
+const ROUGH_PIXEL: f64 = 1e-6 / ROUGH_POINTS as f64;
+/// Pixels over the width of a cohesive zone on them, w dx/(E* range^2), and how many times the points they are compared on.
+const CHI: [(f64, usize); 5] = [(0.05, 2), (0.1, 4), (0.2, 4), (0.3, 4), (0.5, 8)];
+/// Rms height over the range.
+const ROUGHNESS: [f64; 4] = [2.0, 3.0, 5.0, 8.0];
 /// Relative accuracy of their pull-off.
 const ROUGH_ACCURACY: f64 = 0.02;
 
@@ -173,21 +180,23 @@ fn rough_pull_off(setup: &Setup) -> Result<f64, Failure> {
     Ok(end.pull_off.map_or(-least, |found| found.lower.max(-least)))
 }
 
-/// The least and the greatest error over surfaces and Tabor numbers.
-fn rough_cell(law: Law, pixels: f64, times: usize) -> Result<String, Failure> {
+/// The least and the greatest error over surfaces and numbers of each, where `adhesion` says the work of adhesion, J/m^2, and the
+/// range, m, by the spectral moments of a surface and a number.
+fn rough_cell(
+    law: Law,
+    numbers: &[f64],
+    times: usize,
+    adhesion: impl Fn(&SpectralMoments, f64) -> Option<[f64; 2]> + Sync,
+) -> Result<String, Failure> {
     let cases: Vec<((f64, u64), f64)> = ROUGH
         .iter()
-        .flat_map(|surface| ROUGH_TABOR_NUMBERS.map(|tabor| (*surface, tabor)))
+        .flat_map(|surface| numbers.iter().map(|number| (*surface, *number)))
         .collect();
     let errors = cases
         .into_par_iter()
-        .map(|(surface, tabor)| {
-            // As warnings have it: 2 over the rms curvature.
+        .map(|(surface, number)| {
             let moments = rough(surface, 1, "")?.statistics.moments;
-            let radius = moments.mean_radius().ok_or("no summits")?;
-            let pixel = 1e-6 / ROUGH_POINTS as f64;
-            let range = (0.5 * pixels * pixel).powi(2) / (2.0 * radius);
-            let work = ROUGH_MODULUS * ((tabor * range).powi(3) / radius).sqrt();
+            let [work, range] = adhesion(&moments, number).ok_or("no summits")?;
             let name = match law {
                 Law::MaugisDugdale => "maugis-dugdale",
                 Law::Exponential => "exponential",
@@ -201,6 +210,21 @@ fn rough_cell(law: Law, pixels: f64, times: usize) -> Result<String, Failure> {
         })
         .collect::<Result<Vec<f64>, Failure>>()?;
     Ok(span(&errors))
+}
+
+/// Work of adhesion and range where so many pixels lie across the disc of a summit and the Tabor number is this, with the radius of
+/// warnings, 2 over the rms curvature.
+fn by_reach(moments: &SpectralMoments, pixels: f64, tabor: f64) -> Option<[f64; 2]> {
+    let radius = moments.mean_radius()?;
+    let range = (0.5 * pixels * ROUGH_PIXEL).powi(2) / (2.0 * radius);
+    let work = ROUGH_MODULUS * ((tabor * range).powi(3) / radius).sqrt();
+    Some([work, range])
+}
+
+/// Work of adhesion and range for a chi and a range of the rms height over so much.
+fn by_chi(moments: &SpectralMoments, chi: f64, roughness: f64) -> [f64; 2] {
+    let range = moments.rms_height() / roughness;
+    [chi * ROUGH_MODULUS * range * range / ROUGH_PIXEL, range]
 }
 
 fn main() -> Result<(), Failure> {
@@ -231,9 +255,27 @@ fn main() -> Result<(), Failure> {
     for (name, law) in laws {
         let row = ROUGH_PIXELS
             .iter()
-            .map(|(pixels, times)| rough_cell(law, *pixels, *times))
+            .map(|(pixels, times)| {
+                rough_cell(law, &ROUGH_TABOR_NUMBERS, *times, |moments, tabor| {
+                    by_reach(moments, *pixels, tabor)
+                })
+            })
             .collect::<Result<Vec<_>, _>>()?;
         println!("| {name} | {} |", row.join(" | "));
+    }
+    let head = CHI.map(|(chi, _)| chi.to_string()).join(" | ");
+    println!("\n| chi of a rough surface | {head} |");
+    println!("|---|{}", "---|".repeat(CHI.len()));
+    for roughness in ROUGHNESS {
+        let row = CHI
+            .iter()
+            .map(|(chi, times)| {
+                rough_cell(Law::MaugisDugdale, &[roughness], *times, |moments, of| {
+                    Some(by_chi(moments, *chi, of))
+                })
+            })
+            .collect::<Result<Vec<_>, _>>()?;
+        println!("| rms height {roughness} ranges | {} |", row.join(" | "));
     }
     Ok(())
 }

@@ -1,5 +1,6 @@
 //! Statistics of height maps.
 
+use std::ops::RangeInclusive;
 use std::sync::Arc;
 
 use numpy::{PyArray1, PyArray2, PyUntypedArrayMethods};
@@ -7,16 +8,19 @@ use pyo3::prelude::*;
 use pyo3::types::PyDict;
 use tabor::backend::cpu::with_threads;
 use tabor::scene::Boundary;
-use tabor::surface::Statistics;
 use tabor::surface::correlation::correlation_length;
 use tabor::surface::fit::fit as fit_band;
 use tabor::surface::roughness::{HeightParameters, scale_dependence};
 use tabor::surface::statistics::radial_spectrum;
+use tabor::surface::{PartError, Statistics};
 use tabor::{Grid, SharedValues};
 
 use crate::arrays::shared;
 use crate::errors;
 use crate::waiting::{Talk, wait};
+
+/// Lengths with which one can compute, m, as in scenes.
+const LENGTHS: RangeInclusive<f64> = 1e-30..=1e30;
 
 /// Heights, m, and where they lie.
 pub struct Map {
@@ -38,12 +42,14 @@ impl Map {
             let words = "heights: must have at least one point, all of them finite";
             return Err(errors::raise(py, "SurfaceError", words));
         }
-        if size.iter().any(|side| !(side.is_finite() && *side > 0.0)) {
-            return Err(errors::raise(
-                py,
-                "SurfaceError",
-                "size: must be more than zero",
-            ));
+        let largest = values.iter().fold(0.0, |most: f64, at| most.max(at.abs()));
+        if largest != 0.0 && !LENGTHS.contains(&largest) {
+            let words = format!("heights: {}", PartError::ArrayExtreme { largest });
+            return Err(errors::raise(py, "SurfaceError", &words));
+        }
+        if size.iter().any(|side| !LENGTHS.contains(side)) {
+            let words = "size: must be more than zero, and between 1e-30 and 1e30 m";
+            return Err(errors::raise(py, "SurfaceError", words));
         }
         Ok(Map {
             grid: Grid::new([columns, rows], size),
@@ -108,7 +114,7 @@ pub fn statistics<'py>(
     table.set_item("nayak_parameter", along.nayak())?;
     table.set_item("summit_density", along.summit_density())?;
     table.set_item("mean_summit_height", along.mean_summit_height())?;
-    table.set_item("mean_summit_radius", moments.mean_radius())?;
+    table.set_item("mean_summit_radius", along.mean_summit_radius())?;
     Ok(table)
 }
 

@@ -169,6 +169,13 @@ def test_tables_are_those_of_the_command_line():
     assert len(table) == 5
     assert table.units["force"] == "N"
     np.testing.assert_allclose(table["force"], 4 / 3 * E * np.sqrt(1e-3) * table["approach"] ** 1.5, rtol=1e-12)
+    # Angles too are in SI.
+    for half_angle in [1.2, np.float32(1.2), "1.2 rad"]:
+        cone = theory.table("cone", half_angle=half_angle, contact_modulus=E, to="100 nm", points=5)
+        sneddon = 2 / np.pi * E * np.tan(1.2) * cone["approach"] ** 2
+        np.testing.assert_allclose(cone["force"], sneddon, rtol=1e-6)
+    right = theory.table("cone", half_angle=1, contact_modulus=E, to="100 nm", points=2)["force"][-1]
+    np.testing.assert_allclose(right, 2 / np.pi * E * np.tan(1) * 1e-14, rtol=1e-12)
 
 
 def test_every_function_gives_finite_numbers_for_likely_arguments():

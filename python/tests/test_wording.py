@@ -98,6 +98,8 @@ MISTAKES = [
     (lambda: tabor.heights(tabor.Flat(), 32, 1.0, boundary="open"), 'boundary: "open" is not one of'),
     (lambda: tabor.self_affine(32, 1.0, rms_slope=-1, shortest=0.1), "rms_slope: -1 is out of range"),
     (lambda: tabor.self_affine(32, 1.0, rms_slope=0.1, shortest=0.1, seed=-1), "seed: -1 is out of range"),
+    (lambda: tabor.statistics([[1e200, 0], [0, 1]], 1.0), "heights: the largest height is 1e200 m; heights must be 0 or between 1e-30 and 1e30 m"),
+    (lambda: tabor.statistics([[1, 0], [0, 1]], 1e-40), "size: "),
     (lambda: tabor.read_heights(__file__, unit="N"), 'unit: "N" is a force'),
     (lambda: tabor.read_heights("none.npy"), "path: .*none.npy: there is no such file"),
     # Studies, which the command line makes of files that are written for them.

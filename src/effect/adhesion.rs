@@ -28,14 +28,18 @@ const PARTS_AS_A_WHOLE: std::ops::RangeInclusive<f64> = 0.1..=1.5;
 const NO_EDGE: f64 = 0.6;
 /// Taper over the range from which on it does.
 const LEAST_TAPER: f64 = 0.2;
+/// Rms heights over the range of rough surfaces up to which a wide taper lowers pull-off too, and the taper over the range from which
+/// on: at 1.8 by up to 15 %, at 2 by up to 38 %.
+const STILL_SMOOTH: f64 = 3.0;
+const WIDE_TAPER: f64 = 1.5;
 /// Tabor number below which a contact shrinks to a point before pull-off, so that it has no width.
 const LEAST_TABOR: f64 = 0.8;
 /// Width in pixels of the disc over which a sphere is attracted where it touches, below which pixels change pull-off by 5 % and by 10 %,
 /// measured at Tabor numbers of 0.03 to 0.7: of a law that ends suddenly, and of one that fades.
 const FEW_ATTRACTED: [f64; 2] = [10.0, 6.0];
 const LOST_ATTRACTED: [f64; 2] = [8.0, 5.0];
-/// The same of the summits of a rough surface, below which pull-off is up to 53 % off, and up to 170 %.
-const FEW_SUMMITS: f64 = 3.5;
+/// The same of the summits of a rough surface, below which pull-off is up to 49 % off, and up to 170 %.
+const FEW_SUMMITS: f64 = 5.0;
 const LOST_SUMMITS: f64 = 2.0;
 
 /// The adhesion of the examples of other effects.
@@ -142,7 +146,7 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
         "take more points or a longer range (range = \"auto\" finds the shortest that the grid resolves)"
     };
     let beyond = "10 % cannot be reached on this grid";
-    let has_edge = roughness(plan).is_none_or(|roughness| roughness > NO_EDGE);
+    let has_edge = smoothness(plan).is_none_or(|roughness| roughness > NO_EDGE);
     let text = match plan.law {
         Law::MaugisDugdale(law) if law.taper == 0.0 && !has_edge => None,
         Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LOST => Some(format!(
@@ -175,21 +179,38 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
     };
     warnings.extend(text);
     warnings.extend(warning_of_small_contact(plan, regime));
-    warnings.extend(warning_of_taper(plan));
+    warnings.extend(warning_of_taper(plan, regime));
     warnings
 }
 
-/// The rms height over the range, of surfaces that part as a whole.
+/// The rms height over the range, of surfaces that are no sphere.
 fn roughness(plan: &Plan) -> Option<f64> {
     let roughness = plan.outline.moments.rms_height() / plan.law.range();
-    (plan.outline.sphere_radius.is_none() && PARTS_AS_A_WHOLE.contains(&roughness))
-        .then_some(roughness)
+    plan.outline.sphere_radius.is_none().then_some(roughness)
 }
 
-/// The warning for a taper where no edge needs it.
-fn warning_of_taper(plan: &Plan) -> Option<String> {
+/// The same of surfaces that part as a whole.
+fn smoothness(plan: &Plan) -> Option<f64> {
+    roughness(plan).filter(|roughness| PARTS_AS_A_WHOLE.contains(roughness))
+}
+
+/// The warning for a taper that lowers pull-off.
+fn warning_of_taper(plan: &Plan, regime: Regime) -> Option<String> {
     let (range, taper) = (plan.law.range(), plan.law.taper());
-    let roughness = roughness(plan).filter(|_| taper >= LEAST_TAPER * range)?;
+    // Flats and walls have edges, whatever their height, and no curvature.
+    let still_smooth = roughness(plan).filter(|roughness| {
+        (*PARTS_AS_A_WHOLE.end()..=STILL_SMOOTH).contains(roughness) && regime.tabor.is_some()
+    });
+    if let Some(roughness) = still_smooth
+        && taper >= WIDE_TAPER * range
+    {
+        return Some(format!(
+            "with an rms height of {roughness:.2} of the range the taper of {} makes pull-off too low: by up to 15 % where it is 1.8 of the range and up to 38 % at 2 (here {:.2}); take more points",
+            format_si(taper, "m"),
+            taper / range,
+        ));
+    }
+    let roughness = smoothness(plan).filter(|_| taper >= LEAST_TAPER * range)?;
     Some(format!(
         "an rms height of {roughness:.2} of the range lets the surfaces part as a whole, and the taper of {} makes pull-off too low: by up to 8 % where it is 0.6 of the range and up to 25 % at 1.8 (here {:.2}); {}",
         format_si(taper, "m"),
@@ -238,7 +259,7 @@ fn warning_of_small_reach(plan: &Plan, regime: Regime) -> Option<String> {
     let beyond = "10 % cannot be reached on this grid";
     if plan.outline.sphere_radius.is_none() {
         let text = format!(
-            "{}: pull-off is up to 14 % off at 5 pixels, 53 % at 3, and 2 to 8 times too high at 1; take more points",
+            "{}: pull-off is up to 14 % off at 5 pixels, 49 % at 4, 53 % at 3, and 2 to 8 times too high at 1; take more points",
             measured("summit")
         );
         return if pixels < LOST_SUMMITS {

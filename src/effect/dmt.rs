@@ -171,6 +171,10 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
         // A law with tension at zero gap makes the net load jump as a point leaves the contact;
         // where the prescribed load lies within such a jump, its two sides are one state.
         let at_a_jump = width <= JUMP_WIDTH * scale;
+        if at_a_jump && let Some(near) = lower.take_if(|low| low.excess.abs() < upper.excess.abs())
+        {
+            upper = near;
+        }
         if !upper.solved.converged || done(upper.excess) || at_a_jump {
             upper.solved.iterations = iterations;
             return Ok(upper.solved);

@@ -17,6 +17,8 @@ const INSEPARABLE_CORRELATION: f64 = 0.95;
 const EXACT: f64 = 1e-7;
 /// A modulus, Pa, that no solid comes near to: diamond has 1e12.
 const TOO_STIFF: f64 = 1e13;
+/// Depths in radii from which the approach is rather in another unit, which is off by a thousand at least.
+const OTHER_UNIT: f64 = 100.0;
 /// Relative standard deviation from which a warning is given.
 pub(super) const UNCERTAIN: f64 = 0.3;
 
@@ -74,10 +76,17 @@ pub(super) fn left_out(curve: &ForceCurve) -> Vec<String> {
 pub(super) fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     if let Some(radius) = measured.indenter.radius() {
         let depth = measured.closest() - fit.parameters.approach_offset;
-        if depth > radius {
+        let is_other_unit = depth > OTHER_UNIT * radius;
+        // A search that has not converged may have left the curve.
+        if is_other_unit || (fit.converged && depth > radius) {
             warnings.push(format!(
-                "the curve presses the sphere in by {:.1} times its radius, and the models hold for depths far below it; if the approach is not in m, name its unit in the header, as in approach [nm]",
+                "the curve presses the sphere in by {:.1} times its radius, and the models hold for depths far below it{}",
                 depth / radius,
+                if is_other_unit {
+                    "; if the approach is not in m, name its unit in the header, as in approach [nm]"
+                } else {
+                    ""
+                }
             ));
         }
     }

@@ -137,7 +137,12 @@ impl SpectralMoments {
         8.0 / 3.0 * (self.m4 / PI).sqrt()
     }
 
-    /// Radius of the mean curvature, `2 / rms_curvature`, m; `None` on a surface without curvature.
+    /// Radius of the mean curvature of the summits, m; `None` on a surface without curvature.
+    pub fn mean_summit_radius(&self) -> Option<f64> {
+        defined(self.mean_summit_curvature().recip())
+    }
+
+    /// Radius of the rms curvature, `2 / rms_curvature`, m, 1.84 times that of the summits; `None` on a surface without curvature.
     pub fn mean_radius(&self) -> Option<f64> {
         defined(2.0 / self.rms_curvature())
     }
@@ -183,6 +188,9 @@ mod tests {
             close(moments.nayak().unwrap(), row[5]);
             close(moments.summit_density().unwrap(), row[6]);
             close(moments.mean_radius().unwrap(), row[7]);
+            // 8/3 sqrt(m4/pi) over sqrt(2/3 m4) of the rms curvature and 2.
+            let ratio = moments.mean_radius().unwrap() / moments.mean_summit_radius().unwrap();
+            close(ratio, 16.0 / 3.0 / PI.sqrt() * (3.0_f64 / 8.0).sqrt());
         }
         assert_relative_eq!(spectrum(0.8, 16.0).moments().m2, 6.630395398303169e-07, max_relative = 1e-11);
         assert_relative_eq!(spectrum(0.8, 16.0).moments().m4, 30158471.566989817, max_relative = 1e-11);

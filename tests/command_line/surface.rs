@@ -650,6 +650,13 @@ fn maps_are_cropped_cleaned_closed_and_resampled() {
         "{}",
         errors(&output)
     );
+    for crop in ["0, 0, 0, 4", "0, 0, 4, 0", "32, 24, 0, 0"] {
+        let output = tabor(folder, &[&call[..], &["--crop", crop]].concat());
+        assert_eq!(output.status.code(), Some(2));
+        let said = errors(&output);
+        let words = "a part has at least one point along x and along y";
+        assert!(said.contains("--crop") && said.contains(words), "{said}");
+    }
 
     // The same in a scene, which then takes more points than its file.
     let scene = format!(

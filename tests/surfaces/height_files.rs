@@ -632,6 +632,8 @@ fn bad_files_are_refused_in_a_sentence() {
         ("cut.png", png[..100].to_vec(), "broken PNG image: "),
         ("colour.png", colour_png(), "images other than grey ones of 8 or 16 bits are not in this version; colours are not heights"),
         ("grey.png", png.clone(), "this is a grey image: give --black and --white, the heights of its ends"),
+        // The same bits as signed whole numbers.
+        ("signed.tif", patched(&good("tifffile_float.tif"), 186, &[2, 0]), "TIFF images of signed whole numbers, of whole ones of 32 bits"),
         ("cut.tif", tif[..100].to_vec(), "broken TIFF image: "),
         ("tiles.tif", patched(&good("tifffile_deflate.tif"), 162, &[0, 0, 0x10, 0]), "16 rows of 1048576 columns need 8192 bytes, there are 546"),
         ("vast_tiles.tif", patched(&good("tifffile_deflate.tif"), 162, &[0xf0, 0xff, 0xff, 0xff]), "68719476480 points are too many"),

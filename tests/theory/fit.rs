@@ -203,19 +203,23 @@ fn the_model_is_that_of_the_tabor_number() {
 
 #[test]
 fn an_approach_in_another_unit_is_warned_of() {
+    let samples = made(Model::Hertz, 1.0, 1e-3, 1);
+    let depths = samples.iter().map(|sample| sample.approach);
+    let depth = depths.fold(0.0, f64::max);
     let warned = |unit: f64| {
-        let mut samples = made(Model::Hertz, 1.0, 1e-3, 1);
+        let mut samples = samples.clone();
         for sample in &mut samples {
             sample.approach *= unit;
         }
         let found = fitted(samples, RADIUS, FREE).warnings;
-        found
-            .iter()
-            .any(|warning| warning.contains("times its radius"))
+        ["times its radius", "name its unit in the header"]
+            .map(|words| found.iter().any(|warning| warning.contains(words)))
     };
-    assert!(!warned(1.0));
+    assert_eq!(warned(1.0), [false, false]);
+    // Too deep, but no unit.
+    assert_eq!(warned(3.0 * RADIUS / depth), [true, false]);
     // Numbers in nm, taken as m.
-    assert!(warned(1e9));
+    assert_eq!(warned(1e9), [true, true]);
 }
 
 /// A force that is off everywhere is found where it is asked for.

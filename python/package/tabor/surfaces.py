@@ -346,7 +346,8 @@ def statistics(heights: Any, size: Size | None = None, *, boundary: str = "perio
     dict
         mean, lowest, highest, rms_height, mean_deviation, correlation_length, mean_summit_height, mean_summit_radius (m),
         skewness, kurtosis, rms_slope, rms_curvature (1/m), nayak_parameter, summit_density (1/m^2); None for what a flat
-        map does not have.
+        map does not have. The numbers of the summits are those of a Gaussian surface with the spectral moments of the map,
+        their radius 1 over their mean curvature.
     """
     values, lengths = _map(heights, size)
     found: dict[str, float] = _tabor.statistics(values, lengths, _periodic(boundary))

@@ -74,7 +74,7 @@ struct FileArguments {
     #[arg(long)]
     profile: bool,
     /// Keep a part: x and y of its first point, points along x and y, as "0, 0, 256, 256"
-    #[arg(long, value_name = "X,Y,NX,NY", value_parser = whole::<4>)]
+    #[arg(long, value_name = "X,Y,NX,NY", value_parser = part)]
     crop: Option<[usize; 4]>,
     /// Interpolate points that stand out of their neighbours by more than so many standard deviations
     #[arg(long, value_name = "N", value_parser = times)]
@@ -122,6 +122,15 @@ fn whole<const N: usize>(text: &str) -> Result<[usize; N], String> {
         .ok_or_else(|| {
             format!("give {N} whole numbers up to {MOST_SIDE}, with commas between them")
         })
+}
+
+/// The first point of a part, and its points along x and y.
+fn part(text: &str) -> Result<[usize; 4], String> {
+    let part @ [_, _, nx, ny] = whole(text)?;
+    match [nx, ny].contains(&0) {
+        true => Err("a part has at least one point along x and along y".to_owned()),
+        false => Ok(part),
+    }
 }
 
 fn points(text: &str) -> Result<[usize; 2], String> {

@@ -49,7 +49,11 @@ const QUANTITIES: [(&str, &str, &str); COUNTED] = [
         "1/m^2",
         "of a Gaussian surface with these moments",
     ),
-    ("summit_radius", "m", "2 / rms_curvature"),
+    (
+        "summit_radius",
+        "m",
+        "1 / mean curvature of the summits, of a Gaussian surface with these moments",
+    ),
     (
         "correlation_length",
         "m",
@@ -189,7 +193,7 @@ impl<'a> Report<'a> {
             Some(along.m4),
             along.nayak(),
             along.summit_density(),
-            moments.mean_radius(),
+            along.mean_summit_radius(),
             length_of(&self.correlation),
             Some(found_heights.mean_deviation),
             Some(found_heights.rms_height),

@@ -451,7 +451,10 @@ fn heads_name_the_columns() {
 /// One column of numbers with decimal commas is not two.
 #[test]
 fn a_zero_behind_a_comma_belongs_to_a_fraction() {
-    assert_eq!(numbers("0,5\n-1,05\n2,25\n"), (3, 1, vec![0.5, -1.05, 2.25]));
+    assert_eq!(
+        numbers("0,5\n-1,05\n2,25\n"),
+        (3, 1, vec![0.5, -1.05, 2.25])
+    );
     assert_eq!(numbers("0,5\n1,0\n2,25\n").1, 2);
     assert_eq!(numbers("0,5,05\n1,0,1\n").1, 3);
 }

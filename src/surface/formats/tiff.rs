@@ -53,11 +53,11 @@ fn read_held(file: Bytes, most: usize) -> Result<Map, FileError> {
         Some(format) => match SampleFormat::from_u16_exhaustive(format) {
             SampleFormat::Uint => false,
             SampleFormat::IEEEFP => true,
-            _ => return Err(not_grey()),
+            _ => return Err(other_numbers()),
         },
     };
     if is_float != (bits > 16) {
-        return Err(not_grey());
+        return Err(other_numbers());
     }
     refuse_unread(&mut image, is_float)?;
     let mut warnings = Vec::new();
@@ -290,8 +290,16 @@ fn numbers(pixels: DecodingResult) -> Result<Vec<f64>, FileError> {
         }
         DecodingResult::F32(heights) => heights.into_iter().map(f64::from).collect(),
         DecodingResult::F64(heights) => heights,
-        _ => return Err(not_grey()),
+        _ => return Err(other_numbers()),
     })
+}
+
+/// The error for grey images of other numbers.
+fn other_numbers() -> FileError {
+    FileError::NotSupported {
+        what: "TIFF images of signed whole numbers, of whole ones of 32 bits and of floating-point ones of 16",
+        instead: "save the heights as floating-point numbers of 32 bits",
+    }
 }
 
 /// The error for an image that cannot be read.

@@ -52,6 +52,10 @@ class Table:
         return f"<Table of {len(self)} rows: {', '.join(self.units)}>"
 
 
+#: Parameters that are angles.
+ANGLES = frozenset({"half_angle"})
+
+
 def table(model: str, parameters: Mapping[str, Any] | None = None, /, **more: Any) -> Table:
     """The curve of a model, as ``tabor theory MODEL`` prints it.
 
@@ -72,7 +76,10 @@ def table(model: str, parameters: Mapping[str, Any] | None = None, /, **more: An
     words = [model]
     for name, value in {**(parameters or {}), **more}.items():
         try:
-            words.append(f"--{name}={value if isinstance(value, (str, int, np.integer)) else repr(float(value))}")
+            number = value if isinstance(value, (str, int, np.integer)) else repr(float(value))
+            # The command line reads angles in degrees.
+            unit = " rad" if name in ANGLES and not isinstance(value, str) else ""
+            words.append(f"--{name}={number}{unit}")
         except (TypeError, ValueError):
             raise TheoryError(f"{name}: {value!r} is no number and no text with a unit") from None
     return Table(_tabor.theory_table(words))
