@@ -171,8 +171,10 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
         // A law with tension at zero gap makes the net load jump as a point leaves the contact;
         // where the prescribed load lies within such a jump, its two sides are one state.
         let at_a_jump = width <= JUMP_WIDTH * scale;
-        if at_a_jump && let Some(near) = lower.take_if(|low| low.excess.abs() < upper.excess.abs())
-        {
+        // A tension beyond the one asked for would count as held.
+        let is_nearer =
+            |low: &mut Balance| low.excess.abs() < upper.excess.abs() && asked + low.excess >= 0.0;
+        if at_a_jump && let Some(near) = lower.take_if(is_nearer) {
             upper = near;
         }
         if !upper.solved.converged || done(upper.excess) || at_a_jump {

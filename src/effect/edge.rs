@@ -6,7 +6,7 @@ use crate::backend::{BackendError, Share};
 use crate::grid::{Boundary, Grid};
 
 /// Area in contact and the length of its edge.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Edge {
     /// Area, m^2.
     pub area: f64,

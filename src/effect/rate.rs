@@ -11,6 +11,7 @@ use super::edge::Edge;
 use crate::backend::BackendError;
 use crate::scene::{RateScene, Scene};
 use crate::solver::{Load, Problem, Start};
+use crate::study::control::Position;
 use crate::study::{Attempt, DOUBLE, Hooks, HostBytes, Plan, PointState, Sizes, SolvedStep};
 use crate::units::format_si;
 
@@ -26,6 +27,13 @@ const CORNER: f64 = 0.05;
 
 /// Share of its area below which a contact counts as separating by itself.
 const LET_GO: f64 = 0.5;
+/// First step of the search for the position that carries a load, over the range, and the least over that.
+const POSITION_STEP: f64 = 0.05;
+const LEAST_POSITION_STEP: f64 = 1e-2;
+/// Positions that are tried.
+const MOST_POSITIONS: usize = 40;
+/// Share of a load up to which a position carries it.
+const LOAD_AGREES: f64 = 1e-3;
 
 /// The rate of a scene's adhesion.
 fn rate_of(scene: &Scene) -> Option<RateScene> {
@@ -119,22 +127,75 @@ fn solve(
     load: &Load,
     start: &Start,
 ) -> Result<SolvedStep, BackendError> {
-    let setup = attempt.setup;
-    let duration = attempt.duration;
-    let problem = attempt.problem;
-    let before = if attempt.loaded {
-        Some(problem.surface_part(&attempt.solver.gap()?))
-    } else {
-        None
+    let mut trials = Trials::new(rate, attempt, start)?;
+    let (low, approach) = match trials.agree(load)? {
+        Agreed::At(solved) => return Ok(solved),
+        Agreed::LetsGo { low, approach } => (low, approach),
     };
-    let start = match start {
-        Start::Present => Start::Gap(attempt.solver.gap()?),
-        other => other.clone(),
-    };
-    let mut iterations = 0;
-    let mut trial = |factor: f64| -> Result<SolvedStep, BackendError> {
-        let raised = before.as_ref().filter(|_| factor > 1.0).map(|gap| {
-            let range = problem.law.range();
+    match trials.held_at_a_position(approach)? {
+        Some(solved) => Ok(solved),
+        None => trials.trial(load, low),
+    }
+}
+
+/// What becomes of a contact under a load.
+enum Agreed {
+    /// Factor and speed agree, or cannot.
+    At(SolvedStep),
+    /// The last equilibrium of the raised law is at more than the factor `low` and at an approach, m; beyond it the contact
+    /// separates by itself.
+    LetsGo { low: f64, approach: f64 },
+}
+
+/// Solves of one step, all from the state before it.
+struct Trials<'t, 'a> {
+    rate: RateScene,
+    attempt: &'t mut Attempt<'a>,
+    /// The gap before, on the surface; `None` where there was no contact.
+    before: Option<Vec<f64>>,
+    /// The edge before.
+    edge: Edge,
+    start: Start,
+    iterations: usize,
+}
+
+impl<'t, 'a> Trials<'t, 'a> {
+    fn new(
+        rate: RateScene,
+        attempt: &'t mut Attempt<'a>,
+        start: &Start,
+    ) -> Result<Self, BackendError> {
+        let before = if attempt.loaded {
+            Some(attempt.problem.surface_part(&attempt.solver.gap()?))
+        } else {
+            None
+        };
+        let start = match start {
+            Start::Present => Start::Gap(attempt.solver.gap()?),
+            other => other.clone(),
+        };
+        let gap = before.iter().flatten();
+        let touched: Vec<bool> = gap.map(|&gap| gap <= 0.0).collect();
+        let edge = match &before {
+            Some(_) => edge_of(attempt.problem, &touched)?,
+            None => Edge::default(),
+        };
+        Ok(Trials {
+            rate,
+            attempt,
+            before,
+            edge,
+            start,
+            iterations: 0,
+        })
+    }
+
+    /// Solves a load with a factor.
+    fn trial(&mut self, load: &Load, factor: f64) -> Result<SolvedStep, BackendError> {
+        let attempt = &mut *self.attempt;
+        let setup = attempt.setup;
+        let raised = self.before.as_ref().filter(|_| factor > 1.0).map(|gap| {
+            let range = attempt.problem.law.range();
             let own = |point: usize| setup.law_factor(point);
             gap.iter()
                 .enumerate()
@@ -148,81 +209,175 @@ fn solve(
                 .collect()
         });
         attempt.solver.set_law_factor(raised);
-        let outcome = attempt.solve(load, &start)?;
+        let outcome = attempt.solve(load, &self.start)?;
         let outcome = attempt.restart_stalled(load, outcome)?;
-        iterations += outcome.iterations;
+        self.iterations += outcome.iterations;
         let mut solved = attempt.finish(load, &outcome)?;
-        solved.iterations = iterations;
+        solved.iterations = self.iterations;
         Ok(solved)
-    };
-    let plain = trial(1.0)?;
-    let Some(gap) = &before else {
-        return Ok(plain);
-    };
-    let touched: Vec<bool> = gap.iter().map(|&g| g <= 0.0).collect();
-    let edge_of =
-        |touches: &[bool]| Edge::new(touches, &problem.share, &problem.grid, problem.boundary);
-    let edge = edge_of(&touched)?;
-    let later = |solved: &SolvedStep| {
-        let touches: Vec<bool> = match &solved.evaluation {
-            Some(found) => found
-                .points
-                .iter()
-                .map(|p| *p == PointState::Contact)
-                .collect(),
-            None => vec![false; touched.len()],
-        };
-        edge_of(&touches)
-    };
-    // The factor of the speed found in a trial, less the factor of the trial.
-    let excess = |later: &Edge, factor: f64| rate.factor(edge.recession(later, duration)) - factor;
-    let left = later(&plain)?;
-    let first = excess(&left, 1.0);
-    if !plain.converged || first <= AGREE {
-        return Ok(plain);
     }
-    let (mut low, mut low_excess, mut low_area) = (1.0, first, left.area);
-    let (mut high, mut high_excess) = (1.0 + first, None);
-    let mut factor = high;
-    for solves in 1.. {
-        let solved = trial(factor)?;
-        let left = later(&solved)?;
-        let found = excess(&left, factor);
-        let narrow = high - low <= AGREE * high && found <= 0.0;
-        if narrow && low_area < LET_GO * left.area {
-            // The last equilibrium of the raised law: beyond it the contact separates by itself.
-            return trial(low);
+
+    /// The edge of a solved state.
+    fn edge_after(&self, solved: &SolvedStep) -> Result<Edge, BackendError> {
+        let touches = match &solved.evaluation {
+            Some(found) => {
+                let points = found.points.iter();
+                points.map(|p| *p == PointState::Contact).collect()
+            }
+            None => vec![false; self.before.as_ref().map_or(0, Vec::len)],
+        };
+        edge_of(self.attempt.problem, &touches)
+    }
+
+    /// Solves a load with the factor of the speed that its edge then has.
+    fn agree(&mut self, load: &Load) -> Result<Agreed, BackendError> {
+        let (rate, edge, duration) = (self.rate, self.edge, self.attempt.duration);
+        // The factor of the speed found in a trial, less the factor of the trial.
+        let excess =
+            |later: &Edge, factor: f64| rate.factor(edge.recession(later, duration)) - factor;
+        let plain = self.trial(load, 1.0)?;
+        if self.before.is_none() {
+            return Ok(Agreed::At(plain));
         }
-        // Where pixels separate one by one no factor may agree; the edge waits for the next pixel.
-        if !solved.converged || found.abs() <= AGREE * factor || narrow || solves == MOST_SOLVES {
+        let left = self.edge_after(&plain)?;
+        let first = excess(&left, 1.0);
+        if !plain.converged || first <= AGREE {
+            return Ok(Agreed::At(plain));
+        }
+        // Its fields are not held beside those of the others.
+        drop(plain);
+        let (mut low, mut low_excess, mut low_area) = (1.0, first, left.area);
+        let (mut high, mut high_excess) = (1.0 + first, None);
+        let mut factor = high;
+        let mut solves = 0;
+        loop {
+            solves += 1;
+            let solved = self.trial(load, factor)?;
+            let left = self.edge_after(&solved)?;
+            let found = excess(&left, factor);
+            let narrow = high - low <= AGREE * high && found <= 0.0;
+            if let Some(held) = &solved.evaluation
+                && narrow
+                && low_area < LET_GO * left.area
+            {
+                let approach = held.position.approach;
+                return Ok(Agreed::LetsGo { low, approach });
+            }
+            // Where pixels separate one by one no factor may agree; the edge waits for the next pixel.
             let agrees = solves < MOST_SOLVES;
-            return Ok(SolvedStep {
-                converged: solved.converged && agrees,
-                // Each solve may have converged: what has not is the factor.
-                residual: match agrees {
-                    true => solved.residual,
-                    false => solved.residual.max(found.abs() / factor),
-                },
-                ..solved
-            });
+            if !solved.converged || found.abs() <= AGREE * factor || narrow || !agrees {
+                return Ok(Agreed::At(SolvedStep {
+                    converged: solved.converged && agrees,
+                    // Each solve may have converged: what has not is the factor.
+                    residual: match agrees {
+                        true => solved.residual,
+                        false => solved.residual.max(found.abs() / factor),
+                    },
+                    ..solved
+                }));
+            }
+            if found > 0.0 {
+                (low, low_excess, low_area) = (factor, found, left.area);
+            } else {
+                (high, high_excess) = (factor, Some(found));
+            }
+            let share = match high_excess {
+                Some(most) => (low_excess / (low_excess - most)).clamp(CORNER, 1.0 - CORNER),
+                None => 1.0,
+            };
+            // Every third trial halves the bracket, in case the straight line converges slowly; the upper side is
+            // solved last.
+            factor = match high - low <= AGREE * high {
+                true => high,
+                false if solves % 3 != 0 => low + share * (high - low),
+                false if high > WIDE * low => (low * high).sqrt(),
+                false => 0.5 * (low + high),
+            };
         }
-        if found > 0.0 {
-            (low, low_excess, low_area) = (factor, found, left.area);
-        } else {
-            (high, high_excess) = (factor, Some(found));
-        }
-        let share = match high_excess {
-            Some(most) => (low_excess / (low_excess - most)).clamp(CORNER, 1.0 - CORNER),
-            None => 1.0,
-        };
-        // Every third trial halves the bracket, in case the straight line converges slowly; the upper side is
-        // solved last.
-        factor = match high - low <= AGREE * high {
-            true => high,
-            false if solves % 3 != 0 => low + share * (high - low),
-            false if high > WIDE * low => (low * high).sqrt(),
-            false => 0.5 * (low + high),
-        };
     }
-    Ok(plain)
+
+    /// The state that carries the prescribed load, or that of the spring, where the law of one factor carries none: an edge that
+    /// recedes faster toughens, and peels on while the load grows. It is an equilibrium of the prescribed position that is not one of
+    /// the load; `approach` (m) is that of the last one that is. `None` if no position carries the load.
+    fn held_at_a_position(&mut self, approach: f64) -> Result<Option<SolvedStep>, BackendError> {
+        let (setup, controller) = (self.attempt.setup, *self.attempt.controller);
+        let value = self.attempt.value;
+        let spring = setup.spring();
+        let asked = |approach: f64| match spring {
+            Some(spring) => spring * (value - approach),
+            None => controller.force(controller.mean_pressure(value)),
+        };
+        let is_free = controller.is_load() || spring.is_some();
+        // Plastic depths would move the position.
+        if !is_free || asked(approach) >= 0.0 || self.attempt.problem.hardness.is_some() {
+            return Ok(None);
+        }
+        let first_step = POSITION_STEP * setup.law.range();
+        let mut step = first_step;
+        let (mut held, mut held_lack) = (approach, f64::INFINITY);
+        // A position whose tension exceeds the one asked for; and one too far out, which holds less than one before or nothing.
+        let mut over: Option<(f64, f64)> = None;
+        let mut too_far: Option<f64> = None;
+        let mut next = approach;
+        for trials in 1..=MOST_POSITIONS {
+            let tension = -asked(next);
+            let solved = match self.agree(&controller.position_load(next))? {
+                Agreed::At(solved) => Some(solved).filter(|solved| solved.converged),
+                Agreed::LetsGo { .. } => None,
+            };
+            let position = solved
+                .as_ref()
+                .and_then(|solved| Some(solved.evaluation.as_ref()?.position));
+            // What is left of the tension asked for.
+            let lack = position.map(|held| tension + controller.force(held.mean_pressure));
+            match lack {
+                Some(lack) if lack.abs() <= LOAD_AGREES * tension => {
+                    return Ok(solved.map(|mut solved| {
+                        if let Some(found) = &mut solved.evaluation {
+                            let asked = Position {
+                                mean_pressure: -tension / controller.force(1.0),
+                                ..found.position
+                            };
+                            found.missed = controller.missed(&asked, found.force);
+                        }
+                        solved
+                    }));
+                }
+                Some(lack) if lack <= 0.0 => over = Some((next, lack)),
+                Some(lack) if over.is_some() || lack < held_lack => {
+                    (held, held_lack) = (next, lack);
+                }
+                _ => too_far = Some(next),
+            }
+            next = match (over, too_far) {
+                // The first one, whose factor is known to a share alone.
+                (Some((over, _)), _) if held_lack.is_infinite() => {
+                    step *= 2.0;
+                    over + step
+                }
+                (Some((over, excess)), _) => {
+                    let share = match trials % 3 {
+                        0 => 0.5,
+                        _ => held_lack / (held_lack - excess),
+                    };
+                    held + share.clamp(CORNER, 1.0 - CORNER) * (over - held)
+                }
+                (None, Some(_)) if held_lack.is_infinite() => break,
+                (None, Some(far)) => 0.5 * (held + far),
+                (None, None) => {
+                    step *= 2.0;
+                    held - step
+                }
+            };
+            if held_lack.is_finite() && (next - held).abs() < LEAST_POSITION_STEP * first_step {
+                break;
+            }
+        }
+        Ok(None)
+    }
+}
+
+/// The edge of the points that touch.
+fn edge_of(problem: &Problem, touches: &[bool]) -> Result<Edge, BackendError> {
+    Edge::new(touches, &problem.share, &problem.grid, problem.boundary)
 }

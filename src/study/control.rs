@@ -167,6 +167,15 @@ impl<'s> Controller<'s> {
         problem.padded(&gap, 0.0)
     }
 
+    /// The load that holds an approach (m) without a spring, whatever the path prescribes.
+    pub fn position_load(&self, approach: f64) -> Load {
+        let rigid = Controller {
+            spring: None,
+            ..*self
+        };
+        rigid.approach_load(approach)
+    }
+
     fn gap_load(&self, mean_gap: f64) -> Load {
         Load {
             hold: Hold::Gap(mean_gap / self.problem.scales.length),

@@ -117,7 +117,7 @@ impl Setup {
     }
 
     /// Spring between a prescribed approach and the body, N/m.
-    pub(super) fn spring(&self) -> Option<f64> {
+    pub(crate) fn spring(&self) -> Option<f64> {
         self.effects.spring(&self.scene)
     }
 

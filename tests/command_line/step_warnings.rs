@@ -129,29 +129,38 @@ fn a_contact_that_is_wide_for_its_sphere_is_warned_of_once() {
     assert_eq!(said.matches("the radius of contact").count(), 1, "{said}");
 }
 
-/// Crests on few points: as one more of them touches, its attraction ends, and the net load jumps by more than 2 % of the prescribed one.
+/// Crests on few points: as one more of them touches, its attraction ends, and the net load jumps past the prescribed one: by 2 % at least
+/// on one grid, and on a finer one from 1 % below to 2.3 % above it, where the nearer side is the answer.
 fn a_net_load_that_jumps_past_the_prescribed_one_is_warned_of() {
-    let folder = scene(
+    let [said, unsaid] = [([45, 32], 2.7e-6, 0.02), ([57, 40], 2.87e-6, 0.0)].map(jumped_past);
+    let words = "step 1: the net load misses the prescribed force by ";
+    assert!(said.contains(words), "{said}");
+    assert!(!unsaid.contains("misses"), "{unsaid}");
+}
+
+/// What is said of crests on so many points that are pressed by a force, N, which their load misses by at least a share of it, and at
+/// most by a hundredth more.
+fn jumped_past((points, force, least): ([usize; 2], f64, f64)) -> String {
+    let folder = scene(&format!(
         r#"
-grid = { points = [57, 40], size = ["4.805 um", "2.36 um"], boundary = "free" }
-solid = { contact_modulus = "0.5 GPa" }
-surface = [{ kind = "wavy", amplitude = "29.2 nm", wavelength = ["2.4025 um", "1.18 um"] }]
-adhesion = { law = "exponential", work_of_adhesion = 0.3, range = "15.8 nm", treatment = "dmt" }
-loading = { control = "force", path = ["2.87 uN"] }
-output = { images = [] }
+grid = {{ points = {points:?}, size = ["4.805 um", "2.36 um"], boundary = "free" }}
+solid = {{ contact_modulus = "0.5 GPa" }}
+surface = [{{ kind = "wavy", amplitude = "29.2 nm", wavelength = ["2.4025 um", "1.18 um"] }}]
+adhesion = {{ law = "exponential", work_of_adhesion = 0.3, range = "15.8 nm", treatment = "dmt" }}
+loading = {{ control = "force", path = [{force:e}] }}
+output = {{ images = [] }}
 "#,
-    );
+    ));
     let output = tabor(
         folder.path(),
         &["run", "scene.toml", "--out", "out", "--quiet"],
     );
     assert_eq!(status(&output), 0, "{}", errors(&output));
     let curve = table(&folder.path().join("out/curve.csv"));
-    let missed = number(&curve[0], "force").expect("a force") - 2.87e-6;
-    assert!(missed.abs() > 0.01 * 2.87e-6, "{missed}");
-    let words = "step 1: the net load misses the prescribed force by ";
-    let said = errors(&output);
-    assert!(said.contains(words), "{said}");
+    let found = number(&curve[0], "force").expect("a force");
+    let missed = (found / force - 1.0).abs();
+    assert!((least..least + 0.01).contains(&missed), "{missed}");
+    errors(&output)
 }
 
 /// Within a step of 200 nm rough surfaces jump together; close to the jump a load takes more iterations than the step.
