@@ -1,10 +1,9 @@
 //! Standard deviations and correlations of the numbers of a fit, from the covariance of its variables.
 
-use nalgebra::{DMatrix, DVector};
+use nalgebra::DMatrix;
 
 use super::estimate::{Search, Variable};
 use super::model::{LAMBDAS, Model, Parameters};
-use super::segments::Segment;
 
 /// Rounding that a correlation of 1 may have.
 const ROUNDING: f64 = 1e-6;
@@ -196,40 +195,6 @@ pub(super) fn correlations(
         }
     }
     pairs
-}
-
-/// Correlation of neighbouring residuals, and the variance of the residuals, corrected for it.
-pub(super) fn variance_of(
-    residuals: &DVector<f64>,
-    degrees: usize,
-    segments: &[Segment],
-) -> (f64, f64) {
-    let points = residuals.len() as f64;
-    let autocorrelation = autocorrelation(residuals, segments);
-    // Correlated residuals count for fewer: n (1 - r)/(1 + r) of them are independent.
-    let noticed = autocorrelation > 2.0 / points.sqrt();
-    let repeated = if noticed {
-        ((1.0 + autocorrelation) / (1.0 - autocorrelation)).min(0.1 * points)
-    } else {
-        1.0
-    };
-    let variance = residuals.norm_squared() / degrees as f64 * repeated.max(1.0);
-    (autocorrelation, variance)
-}
-
-/// Correlation of each residual with the next one of the same segment.
-fn autocorrelation(residuals: &DVector<f64>, segments: &[Segment]) -> f64 {
-    let square = residuals.norm_squared();
-    let products: f64 = segments
-        .iter()
-        .flat_map(|segment| segment.points.clone().skip(1))
-        .map(|i| residuals[i] * residuals[i - 1])
-        .sum();
-    if square > 0.0 {
-        (products / square).clamp(-0.99, 0.99)
-    } else {
-        0.0
-    }
 }
 
 #[cfg(test)]

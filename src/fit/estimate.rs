@@ -4,13 +4,14 @@ use nalgebra::DVector;
 
 use super::curve_file::Sample;
 use super::deviations::{
-    BaselineError, Uncertainties, at_zero, correlations, credible, uncertainties, variance_of,
+    BaselineError, Uncertainties, at_zero, correlations, credible, uncertainties,
 };
 use super::indenter::Indenter;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
 use super::measured::{Freedom, Measured};
 use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
 use super::profile::{MOST_RISE, ProfilePoint, widen};
+use super::scatter::{InContact, Scatter};
 use super::segments::Segment;
 use super::start::{beside_the_fold, scale_grid, starts};
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
@@ -35,6 +36,8 @@ const LOWER: f64 = 1e-6;
 /// Free numbers that a transition counts for in Akaike's criterion, whose place is chosen among all points (Ninomiya 2015,
 /// doi:10.1007/s10463-014-0481-x).
 const TRANSITION: usize = 3;
+/// Share of the greatest dependence on the modulus below which a force has none but for rounding.
+const ROUNDED_SLOPE: f64 = 1e-6;
 /// Least sum of squares with which a fit is credited, in squares of the force range a point. Below
 /// it are rounding and interpolation errors.
 const FLOOR: f64 = 1e-14;
@@ -65,6 +68,8 @@ pub struct ModelFit {
     pub noise: f64,
     /// Correlation of a residual with the next: about 0 for noise, near 1 for a wrong model.
     pub autocorrelation: f64,
+    /// Residuals of the points in contact alone, over the range of the forces; `None` where these are few.
+    pub(super) in_contact: Option<InContact>,
     /// Force of the model at each point, N.
     pub fitted: Vec<f64>,
     /// For each point, whether the tip interacts with the flat; else it is free.
@@ -78,6 +83,11 @@ pub struct ModelFit {
 }
 
 impl ModelFit {
+    /// Correlation of a residual with the next, of the points in contact alone: those whose force depends on the modulus; `None` where these are few.
+    pub fn contact_autocorrelation(&self) -> Option<f64> {
+        Some(self.in_contact?.autocorrelation)
+    }
+
     /// States of the model that the curve may not rule out: its states over lambda, or the fit
     /// itself if lambda is known more closely than their spacing.
     pub(super) fn states(&self) -> Vec<ProfilePoint> {
@@ -439,6 +449,20 @@ pub(super) fn aic_of_baseline(measured: &Measured) -> f64 {
     aic(samples().map(over_span).sum(), points, free)
 }
 
+/// For each point, whether its force depends on the modulus. That of an adhesive tip with hardly any adhesion interacts everywhere.
+fn depends_on_modulus(search: &Search, minimum: &Minimum) -> Vec<bool> {
+    let at = search
+        .variables
+        .iter()
+        .position(|v| *v == Variable::ContactModulus);
+    let Some(at) = at else {
+        return Vec::new();
+    };
+    let slopes = minimum.jacobian.column(at);
+    let least = ROUNDED_SLOPE * slopes.amax();
+    slopes.iter().map(|slope| slope.abs() > least).collect()
+}
+
 /// Numbers and their uncertainties at a minimum.
 fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let measured = search.measured;
@@ -447,7 +471,9 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
     let free = search.variables.len();
     let degrees = points.saturating_sub(free).max(1);
     let sum = minimum.sum();
-    let (autocorrelation, variance) = variance_of(&minimum.residuals, degrees, &measured.segments);
+    let in_contact = depends_on_modulus(search, minimum);
+    let scatter = Scatter::new(&minimum.residuals, free, &measured.segments, &in_contact);
+    let variance = scatter.variance;
     let by_middle = credible(covariance(&minimum.jacobian, variance));
     let baseline_error = BaselineError::new(search, &by_middle);
     let covariance = at_zero(search, by_middle);
@@ -485,7 +511,8 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         free,
         aic: aic(floor, points, free + TRANSITION * transitions),
         noise: (sum / degrees as f64).sqrt() * span,
-        autocorrelation,
+        autocorrelation: scatter.autocorrelation,
+        in_contact: scatter.in_contact,
         fitted,
         interacting,
         profile: Vec::new(),

@@ -36,6 +36,7 @@ mod profile;
 mod relaxation;
 mod report;
 mod request;
+mod scatter;
 mod segments;
 mod signs;
 mod slope;

@@ -12,10 +12,10 @@ use nalgebra::{DMatrix, DVector};
 
 use super::choice::FitResult;
 use super::curve_file::{ForceCurve, name};
-use super::deviations::variance_of;
 use super::error::FitError;
 use super::least_squares::{Problem, covariance, minimise};
 use super::profile::MOST_RISE;
+use super::scatter::Scatter;
 use super::segments::Segment;
 use crate::units::format_si;
 
@@ -149,8 +149,8 @@ pub fn fit_relaxation(
     let best = freed.chain(best_first.iter().map(|state| **state));
     let best = best.min_by(|a, b| a.sum.total_cmp(&b.sum));
     let best = best.ok_or_else(|| no_loading(0))?;
-    let in_contact = loading.approaches.iter().filter(|x| **x > best.touch);
-    let in_contact = in_contact.count();
+    let touches: Vec<bool> = (loading.approaches.iter().map(|x| *x > best.touch)).collect();
+    let in_contact = touches.iter().filter(|touches| **touches).count();
     if in_contact < LEAST_POINTS {
         return Err(no_loading(in_contact));
     }
@@ -161,7 +161,7 @@ pub fn fit_relaxation(
         points: 0..times.len(),
         loading: true,
     }];
-    let (_, variance) = variance_of(&residuals, degrees, &whole);
+    let variance = Scatter::new(&residuals, free, &whole, &touches).variance;
     let numbers = |time: f64, [relaxed, rest]: [f64; 2]| [relaxed, relaxed + rest, time];
     let values = numbers(best.time, solid);
     let mut deviations = loading.deviations(&best, true, is_free, variance);

@@ -160,6 +160,10 @@ fn model(fit: &ModelFit, radius: f64) -> Value {
         ("aic".to_owned(), json!(fit.aic)),
         ("noise".to_owned(), json!(fit.noise)),
         ("autocorrelation".to_owned(), json!(fit.autocorrelation)),
+        (
+            "contact_autocorrelation".to_owned(),
+            json!(fit.contact_autocorrelation()),
+        ),
         ("correlations".to_owned(), correlations(fit)),
     ]);
     Value::Object(entry)

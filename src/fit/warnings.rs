@@ -22,11 +22,43 @@ const OTHER_UNIT: f64 = 100.0;
 /// Relative standard deviation from which a warning is given.
 pub(super) const UNCERTAIN: f64 = 0.3;
 
-/// Whether the residuals of a fit are correlated. They alternate where rows of extension and retraction are mixed.
+/// What tells that a model misses the curve.
+struct Misfit {
+    /// Correlation of neighbouring residuals.
+    correlation: f64,
+    /// Root of their mean square, N.
+    deviation: f64,
+    /// Where: empty for the whole curve.
+    place: &'static str,
+}
+
+/// Whether the residuals of a fit are correlated, those of all points or of the points in contact: free points have the noise
+/// of any model, and enough of them hide the others.
+fn misfit(measured: &Measured, fit: &ModelFit) -> Option<Misfit> {
+    let is_large = |correlation: f64, points: usize| {
+        correlation.abs() > MISFIT_CORRELATION + 3.0 / (points as f64).sqrt()
+    };
+    if fit.noise <= EXACT * measured.force_span {
+        return None;
+    }
+    if is_large(fit.autocorrelation, measured.samples.len()) {
+        return Some(Misfit {
+            correlation: fit.autocorrelation,
+            deviation: fit.noise,
+            place: "",
+        });
+    }
+    let alone = fit.in_contact?;
+    is_large(alone.autocorrelation, alone.points).then(|| Misfit {
+        correlation: alone.autocorrelation,
+        deviation: alone.mean_square.sqrt() * measured.force_span,
+        place: " in contact",
+    })
+}
+
+/// Whether a model misses the curve. Its residuals alternate where rows of extension and retraction are mixed.
 pub(super) fn misses(measured: &Measured, fit: &ModelFit) -> bool {
-    let chance = 3.0 / (measured.samples.len() as f64).sqrt();
-    fit.noise > EXACT * measured.force_span
-        && fit.autocorrelation.abs() > MISFIT_CORRELATION + chance
+    misfit(measured, fit).is_some()
 }
 
 /// A warning where DMT, whose attraction has no end, is in tension at most points beyond first touch: an offset of the
@@ -103,19 +135,23 @@ pub(super) fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut V
             fit.model.title()
         ));
     }
-    if misses(measured, fit) && fit.autocorrelation < 0.0 {
-        warnings.push(format!(
-            "the residuals of {} alternate (correlation {:.2}): rows of extension and retraction seem to be mixed, as where a table is sorted by approach; give the rows in the order of the measurement, or one direction alone",
-            fit.model.title(),
-            fit.autocorrelation,
-        ));
-    } else if misses(measured, fit) {
-        warnings.push(format!(
-            "the residuals of {} are correlated ({:.2}): the model deviates from the curve by {}, and the uncertainties are no more than orders of magnitude",
-            fit.model.title(),
-            fit.autocorrelation,
-            format_si(fit.noise, "N"),
-        ));
+    if let Some(found) = misfit(measured, fit) {
+        let Misfit {
+            correlation,
+            deviation,
+            place,
+        } = found;
+        let title = fit.model.title();
+        warnings.push(if correlation < 0.0 {
+            format!(
+                "the residuals of {title} alternate{place} (correlation {correlation:.2}): rows of extension and retraction seem to be mixed, as where a table is sorted by approach; give the rows in the order of the measurement, or one direction alone",
+            )
+        } else {
+            format!(
+                "the residuals of {title} are correlated{place} ({correlation:.2}): the model deviates from the curve by {}, and the uncertainties are no more than orders of magnitude",
+                format_si(deviation, "N"),
+            )
+        });
     }
     for (first, second, correlation) in &fit.correlations {
         if (*first, *second) == ("contact_modulus", "work_of_adhesion")
