@@ -106,6 +106,25 @@ fn a_tension_without_end_is_warned_of() {
     );
 }
 
+/// A baseline that falls in a straight line up to first touch is the attraction of a Maugis-Dugdale sphere of that range. It had w within 0.4 %
+/// without a word. One that ends is adhesion.
+#[test]
+fn an_attraction_as_far_as_the_curve_is_warned_of() {
+    let tension = 0.1 * DEEPEST;
+    let words = "(--baseline-slope)";
+    for (range, expected) in [(1e-7, true), (5e-8, false)] {
+        let falls = |approach: f64| -tension * (1.0 + approach / range).clamp(0.0, 1.0);
+        let found = fitted(&sphere(240, 0.005 * DEEPEST, 1, falls), AT_ZERO).unwrap();
+        assert!(found.best().model.adheres(), "{range}");
+        assert_eq!(
+            is_warned(&found, words),
+            expected,
+            "{range}: {:?}",
+            found.warnings
+        );
+    }
+}
+
 /// Numbers in nN, taken as N.
 #[test]
 fn a_force_in_another_unit_is_warned_of() {

@@ -4,6 +4,7 @@ use super::curve_file::ForceCurve;
 use super::estimate::ModelFit;
 use super::measured::Measured;
 use super::model::Model;
+use crate::theory::tabor_map::FORCE_DMT_LIMIT;
 use crate::units::format_si;
 
 /// Fewest points without force that determine a fitted baseline.
@@ -59,6 +60,38 @@ fn misfit(measured: &Measured, fit: &ModelFit) -> Option<Misfit> {
 /// Whether a model misses the curve. Its residuals alternate where rows of extension and retraction are mixed.
 pub(super) fn misses(measured: &Measured, fit: &ModelFit) -> bool {
     misfit(measured, fit).is_some()
+}
+
+/// Share of the points beyond first touch that are free, below which a curve does not show where an attraction ends, and the share of the
+/// measured way that its range exceeds then.
+const LEAST_FREE_SHARE: f64 = 0.1;
+const LONG_RANGE: f64 = 0.5;
+
+/// A warning where Maugis-Dugdale attracts nearly as far as the curve goes: the force of that attraction falls in a straight line, as does a
+/// tilted baseline. Where the sphere is stretched as far as it attracts (larger Tabor numbers) it is the contact that pulls.
+fn attraction_as_far_as_measured(measured: &Measured, fit: &ModelFit) -> Option<String> {
+    if measured.freedom.baseline_slope || measured.freedom.range.is_some() {
+        return None;
+    }
+    let range = fit.range(measured.indenter.radius()?)?;
+    let touch = fit.parameters.approach_offset;
+    let apart = (0..measured.samples.len()).filter(|at| measured.approaches[*at] < touch);
+    let (pulled, free): (Vec<usize>, Vec<usize>) = apart.partition(|at| fit.interacting[*at]);
+    let ways = pulled.iter().chain(&free);
+    let way = ways.fold(0.0, |most: f64, at| {
+        most.max(touch - measured.approaches[*at])
+    });
+    let is_free = free.len() as f64 > LEAST_FREE_SHARE * (pulled.len() + free.len()) as f64;
+    let acts_apart = fit.tabor_parameter()? < FORCE_DMT_LIMIT;
+    (acts_apart && !is_free && pulled.len() >= ZERO_POINTS && range > LONG_RANGE * way).then(|| {
+        format!(
+            "the attraction reaches {} beyond first touch, nearly as far as the curve ({}), and {} of {} points there are free: a tilted baseline looks the same, and w and E* are then wrong; fit the slope of the baseline (--baseline-slope)",
+            format_si(range, "m"),
+            format_si(way, "m"),
+            free.len(),
+            pulled.len() + free.len(),
+        )
+    })
 }
 
 /// A warning where DMT, whose attraction has no end, is in tension at most points beyond first touch: an offset of the
@@ -123,6 +156,7 @@ pub(super) fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut V
         }
     }
     warnings.extend(endless_tension(measured, fit));
+    warnings.extend(attraction_as_far_as_measured(measured, fit));
     if fit.parameters.contact_modulus > TOO_STIFF {
         warnings.push(format!(
             "a contact modulus of {} is more than any solid has; if the force is not in N, name its unit in the header, as in force [nN]",
