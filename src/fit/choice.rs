@@ -3,10 +3,11 @@
 use std::path::Path;
 
 use super::advice::Advice;
+use super::akaike::aic_of_baseline;
 use super::curve_file::{ForceCurve, Sample, name};
 use super::deviations::Uncertainties;
 use super::error::FitError;
-use super::estimate::{ModelFit, aic_of_baseline, fit_model};
+use super::estimate::{ModelFit, fit_model};
 use super::hysteresis;
 use super::indenter::Indenter;
 use super::inversion::{Inversion, invert_curve};

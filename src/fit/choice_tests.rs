@@ -168,3 +168,31 @@ fn a_tilted_baseline_is_no_adhesion() {
     assert!(adhesive <= 3, "{adhesive} of 20");
     assert!(missed <= 2, "{missed} of 10");
 }
+
+/// Each segment of a curve may have a step of the force where chance suits it best. Five loops without adhesion were adhesive in 12 of 20 curves.
+#[test]
+fn loops_without_adhesion_are_not_adhesive() {
+    let freedom = Freedom {
+        approach_offset: true,
+        ..AT_ZERO
+    };
+    // Each loop has noise of its own.
+    let loops = |seed: u64, more: fn(f64) -> f64| ForceCurve {
+        samples: (0..5)
+            .flat_map(|at| sphere(80, 0.01 * DEEPEST, 100 * seed + at, more).samples)
+            .collect(),
+        ..ForceCurve::default()
+    };
+    let is_adhesive = |curve: ForceCurve| fitted(&curve, freedom).unwrap().best().model.adheres();
+    let found = (0..8)
+        .filter(|seed| is_adhesive(loops(*seed, |_| 0.0)))
+        .count();
+    // At 1 of 20, two or more of 8 come once in 18 times; at 12 of 20, fewer than two once in 117. Uncounted, 5 of these 8 were adhesive.
+    assert!(found <= 1, "{found} of 8");
+    // A pull-off of 3 deviations of the noise.
+    let pulls = |approach: f64| if approach < 0.0 { 0.0 } else { -0.03 * DEEPEST };
+    let missed = (0..4)
+        .filter(|seed| !is_adhesive(loops(*seed, pulls)))
+        .count();
+    assert_eq!(missed, 0);
+}

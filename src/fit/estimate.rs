@@ -2,6 +2,7 @@
 
 use nalgebra::DVector;
 
+use super::akaike::{aic, transitions};
 use super::curve_file::Sample;
 use super::deviations::{
     BaselineError, Uncertainties, at_zero, correlations, credible, uncertainties,
@@ -12,7 +13,6 @@ use super::measured::{Freedom, Measured};
 use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
 use super::profile::{MOST_RISE, ProfilePoint, widen};
 use super::scatter::{InContact, Scatter};
-use super::segments::Segment;
 use super::start::{beside_the_fold, scale_grid, starts};
 use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
 
@@ -33,9 +33,6 @@ const GRID_STARTS: usize = 3;
 /// Most moves from one basin to the next, and the share by which the next must lie lower.
 const MOST_BASINS: usize = 8;
 const LOWER: f64 = 1e-6;
-/// Free numbers that a transition counts for in Akaike's criterion, whose place is chosen among all points (Ninomiya 2015,
-/// doi:10.1007/s10463-014-0481-x).
-const TRANSITION: usize = 3;
 /// Share of the greatest dependence on the modulus below which a force has none but for rounding.
 const ROUNDED_SLOPE: f64 = 1e-6;
 /// Least sum of squares with which a fit is credited, in squares of the force range a point. Below
@@ -419,36 +416,6 @@ fn best_of_grid(
     fit_at.into_iter().map(|(_, start)| start).collect()
 }
 
-/// Akaike's criterion of a sum of squares over those of the force range. The noise is a fitted number too.
-fn aic(sum: f64, points: usize, free: usize) -> f64 {
-    points as f64 * (sum / points as f64).ln() + 2.0 * (free + 1) as f64
-}
-
-/// The same where no contact is: of a baseline alone, which is level but for the freedom of its slope.
-pub(super) fn aic_of_baseline(measured: &Measured) -> f64 {
-    let points = measured.samples.len();
-    let has_offset = measured.freedom.force_offset;
-    let has_slope = measured.freedom.baseline_slope;
-    let samples = || measured.samples.iter();
-    let level = if has_offset {
-        samples().map(|sample| sample.force).sum::<f64>() / points as f64
-    } else {
-        0.0
-    };
-    let place = |sample: &Sample| sample.approach - measured.middle;
-    let slope = if has_slope {
-        let products = samples().map(|sample| place(sample) * (sample.force - level));
-        products.sum::<f64>() / samples().map(|sample| place(sample).powi(2)).sum::<f64>()
-    } else {
-        0.0
-    };
-    let over_span = |sample: &Sample| {
-        ((sample.force - level - slope * place(sample)) / measured.force_span).powi(2)
-    };
-    let free = usize::from(has_offset) + usize::from(has_slope);
-    aic(samples().map(over_span).sum(), points, free)
-}
-
 /// For each point, whether its force depends on the modulus. That of an adhesive tip with hardly any adhesion interacts everywhere.
 fn depends_on_modulus(search: &Search, minimum: &Minimum) -> Vec<bool> {
     let at = search
@@ -493,13 +460,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         .map(|(sample, residual)| sample.force + residual * span)
         .collect();
     let floor = sum.max(FLOOR * points as f64);
-    // Without a slope all models have transitions, which then do not distinguish them.
-    let is_counted = search.tip.model.adheres() && measured.freedom.baseline_slope;
-    let has_transition = |segment: &&Segment| {
-        let mut points = segment.points.clone();
-        is_counted && points.any(|i| interacting.get(i) == Some(&false))
-    };
-    let transitions = measured.segments.iter().filter(has_transition).count();
+    let transitions = transitions(measured, search.tip.model, &interacting);
     ModelFit {
         model: search.tip.model,
         parameters,
@@ -509,7 +470,7 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         sum_of_squares: sum * span * span,
         degrees_of_freedom: degrees,
         free,
-        aic: aic(floor, points, free + TRANSITION * transitions),
+        aic: aic(floor, points, free + transitions),
         noise: (sum / degrees as f64).sqrt() * span,
         autocorrelation: scatter.autocorrelation,
         in_contact: scatter.in_contact,

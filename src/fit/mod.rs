@@ -10,6 +10,7 @@
 
 #[doc(hidden)]
 pub mod advice;
+mod akaike;
 mod calibration;
 mod choice;
 mod columns;

@@ -2,10 +2,11 @@
 
 use std::path::Path;
 
+use super::akaike::aic_of_baseline;
 use super::choice::{CONTACT_AIC, DECISIVE_AIC};
 use super::curve_file::{LEAST_ROWS, Sample, name};
 use super::error::FitError;
-use super::estimate::{ModelFit, aic_of_baseline, fit_model};
+use super::estimate::{ModelFit, fit_model};
 use super::measured::{Measured, ReversedSigns};
 use super::model::Model;
 use super::warnings::misses;
