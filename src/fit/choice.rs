@@ -13,12 +13,13 @@ use super::indenter::Indenter;
 use super::inversion::{Inversion, invert_curve};
 use super::law_error::{LawError, law_error};
 use super::measured::{Freedom, Measured};
+use super::mixed_rows::gap_of_branches;
 use super::model::{Model, Parameters};
 use super::profile::ProfilePoint;
 use super::relaxation::Relaxation;
 use super::signs::check_signs;
 use super::slope::{self, BaselineSlope};
-use super::warnings::{UNCERTAIN, ZERO_POINTS, add_warnings, left_out, misses};
+use super::warnings::{UNCERTAIN, ZERO_POINTS, add_warnings, left_out, misses, mixed_rows};
 use crate::theory::Law;
 use crate::theory::tabor_map::{
     FORCE_DMT_LIMIT, JKR_LIMIT, LAMBDA_PER_MU_MATCHED, Regime, Sphere, regime, tabor_parameter,
@@ -166,6 +167,9 @@ pub fn fit_curve(
         fits[chosen].uncertainties.work_of_adhesion = work_uncertainty;
     }
     add_warnings(&measured, &fits[chosen], &mut warnings);
+    let is_missed = misses(&measured, &fits[chosen]);
+    let mixed = gap_of_branches(&measured).filter(|_| !is_missed);
+    warnings.extend(mixed.map(mixed_rows));
     warnings.extend(hysteresis::warning(
         &measured,
         fits[chosen].parameters.force_offset,
@@ -211,7 +215,7 @@ pub fn fit_curve(
         modulus_uncertainty,
         law_error,
         inversion: invert_curve(&measured, &fits[chosen]),
-        describes_curve: !misses(&measured, &fits[chosen]),
+        describes_curve: !is_missed && mixed.is_none(),
         spring: curve.spring,
         measured,
         as_measured: curve.samples.clone(),

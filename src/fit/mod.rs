@@ -28,6 +28,7 @@ mod law_error;
 mod least_squares;
 mod maugis_curve;
 mod measured;
+mod mixed_rows;
 #[doc(hidden)]
 pub mod model;
 mod nanoscope;

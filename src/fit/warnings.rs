@@ -18,6 +18,8 @@ const INSEPARABLE_CORRELATION: f64 = 0.95;
 const EXACT: f64 = 1e-7;
 /// A modulus, Pa, that no solid comes near to: diamond has 1e12.
 const TOO_STIFF: f64 = 1e13;
+/// What mixes rows, and the way out.
+const MIXED: &str = "rows of extension and retraction seem to be mixed, as where a table is sorted by approach; give the rows in the order of the measurement, or one direction alone";
 /// Depths in radii from which the approach is rather in another unit, which is off by a thousand at least.
 const OTHER_UNIT: f64 = 100.0;
 /// Relative standard deviation from which a warning is given.
@@ -137,6 +139,14 @@ pub(super) fn left_out(curve: &ForceCurve) -> Vec<String> {
     warnings
 }
 
+/// A warning where the forces jump between two branches that are so far apart, N.
+pub(super) fn mixed_rows(gap: f64) -> String {
+    format!(
+        "the forces of neighbouring rows jump by {} and back, again and again: {MIXED}",
+        format_si(gap, "N"),
+    )
+}
+
 /// Warnings about the numbers of a fit.
 pub(super) fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut Vec<String>) {
     if let Some(radius) = measured.indenter.radius() {
@@ -178,7 +188,7 @@ pub(super) fn add_warnings(measured: &Measured, fit: &ModelFit, warnings: &mut V
         let title = fit.model.title();
         warnings.push(if correlation < 0.0 {
             format!(
-                "the residuals of {title} alternate{place} (correlation {correlation:.2}): rows of extension and retraction seem to be mixed, as where a table is sorted by approach; give the rows in the order of the measurement, or one direction alone",
+                "the residuals of {title} alternate{place} (correlation {correlation:.2}): {MIXED}",
             )
         } else {
             format!(
