@@ -91,7 +91,7 @@ impl ForceCurve {
     /// Reads the bytes of a file; `path` is for messages. Files of JPK (with the feature `images`) and Nanoscope are known by
     /// their first bytes.
     ///
-    /// Columns are separated by commas, semicolons or tabs, whichever the header has; with the last
+    /// Columns are separated by commas, semicolons or tabs, whichever the header has (a first line `sep=;` is skipped); with the last
     /// two a comma may be the decimal mark. A table without a header may be separated by blanks, and its columns
     /// are chosen by their numbers. Lines that begin with `#` are comments.
     ///
@@ -113,7 +113,11 @@ impl ForceCurve {
             !text.is_empty() && !text.starts_with('#')
         });
         let no_head = || FitError::NoHead { path: name(path) };
-        let (line, whole_head) = lines.next().ok_or_else(no_head)?;
+        let mut first = lines.next();
+        if first.is_some_and(|(_, line)| names_separator(line)) {
+            first = lines.next();
+        }
+        let (line, whole_head) = first.ok_or_else(no_head)?;
         let head = whole_head.trim();
         let separator = [';', '\t', ',']
             .into_iter()
@@ -251,6 +255,13 @@ pub(super) fn name(path: &Path) -> String {
     path.display().to_string()
 }
 
+/// Whether a first line tells a spreadsheet what separates the cells, as in `sep=;`.
+fn names_separator(line: &str) -> bool {
+    let text = line.trim().trim_matches('"').to_ascii_lowercase();
+    let separator = text.strip_prefix("sep=");
+    separator.is_some_and(|separator| separator.chars().count() <= 1)
+}
+
 /// The cells of a line. A cell in quotes may hold the separator; a quote within it is doubled.
 fn split(line: &str, separator: char) -> Vec<&str> {
     if separator == ' ' {
@@ -309,6 +320,18 @@ mod tests {
         .unwrap();
         let pairs = curve.samples.iter().map(|s| (s.approach, s.force));
         pairs.take(curve.samples.len() - LEAST_ROWS).collect()
+    }
+
+    /// Spreadsheets write such a line; it was taken for the header.
+    #[test]
+    fn a_line_that_names_the_separator_is_no_header() {
+        for (first, separator) in [("sep=;", ';'), ("SEP=,\r", ','), ("\"sep=\t\"", '\t')] {
+            let rows = format!("1{separator}2\n").repeat(LEAST_ROWS) + &format!("3{separator}4\n");
+            let text = format!("{first}\napproach [nm]{separator}force [nN]\n{rows}");
+            let columns = CurveColumns::default();
+            let curve = ForceCurve::parse(text.as_bytes(), Path::new("curve.csv"), &columns);
+            assert_eq!(curve.unwrap().samples.len(), LEAST_ROWS + 1, "{first}");
+        }
     }
 
     #[test]
