@@ -129,7 +129,7 @@ fn solve(
 ) -> Result<SolvedStep, BackendError> {
     let mut trials = Trials::new(rate, attempt, start)?;
     let (low, approach) = match trials.agree(load)? {
-        Agreed::At(solved) => return Ok(solved),
+        Agreed::At(solved) => return Ok(*solved),
         Agreed::LetsGo { low, approach } => (low, approach),
     };
     match trials.held_at_a_position(approach)? {
@@ -141,7 +141,7 @@ fn solve(
 /// What becomes of a contact under a load.
 enum Agreed {
     /// Factor and speed agree, or cannot.
-    At(SolvedStep),
+    At(Box<SolvedStep>),
     /// The last equilibrium of the raised law is at more than the factor `low` and at an approach, m; beyond it the contact
     /// separates by itself.
     LetsGo { low: f64, approach: f64 },
@@ -237,12 +237,12 @@ impl<'t, 'a> Trials<'t, 'a> {
             |later: &Edge, factor: f64| rate.factor(edge.recession(later, duration)) - factor;
         let plain = self.trial(load, 1.0)?;
         if self.before.is_none() {
-            return Ok(Agreed::At(plain));
+            return Ok(Agreed::At(Box::new(plain)));
         }
         let left = self.edge_after(&plain)?;
         let first = excess(&left, 1.0);
         if !plain.converged || first <= AGREE {
-            return Ok(Agreed::At(plain));
+            return Ok(Agreed::At(Box::new(plain)));
         }
         // Its fields are not held beside those of the others.
         drop(plain);
@@ -266,7 +266,7 @@ impl<'t, 'a> Trials<'t, 'a> {
             // Where pixels separate one by one no factor may agree; the edge waits for the next pixel.
             let agrees = solves < MOST_SOLVES;
             if !solved.converged || found.abs() <= AGREE * factor || narrow || !agrees {
-                return Ok(Agreed::At(SolvedStep {
+                return Ok(Agreed::At(Box::new(SolvedStep {
                     converged: solved.converged && agrees,
                     // Each solve may have converged: what has not is the factor.
                     residual: match agrees {
@@ -274,7 +274,7 @@ impl<'t, 'a> Trials<'t, 'a> {
                         false => solved.residual.max(found.abs() / factor),
                     },
                     ..solved
-                }));
+                })));
             }
             if found > 0.0 {
                 (low, low_excess, low_area) = (factor, found, left.area);
@@ -340,7 +340,7 @@ impl<'t, 'a> Trials<'t, 'a> {
                             };
                             found.missed = controller.missed(&asked, found.force);
                         }
-                        solved
+                        *solved
                     }));
                 }
                 Some(lack) if lack <= 0.0 => over = Some((next, lack)),
