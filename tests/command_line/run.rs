@@ -618,7 +618,9 @@ fn pull_off_under_a_load() {
     // 20 um squared: between 12 and 24 uN, neither of them.
     assert!(lower > 12.01e-6 && upper < 23.99e-6, "{lower} {upper}");
     assert_eq!(found["pull_off_step"], 9);
-    assert!(!said.contains("pull-off"), "{said}");
+    // What 128 points do to its summits has nothing to do with the path.
+    let mut of_path = said.lines().filter(|line| !line.contains("a stiff summit"));
+    assert!(!of_path.any(|line| line.contains("pull-off")), "{said}");
     let page = fs::read_to_string(folder.path().join("whole/report.html")).expect("a report");
     assert!(
         page.contains("<dt>Pull-off</dt>"),
