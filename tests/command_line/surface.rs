@@ -818,7 +818,25 @@ fn a_size_that_stretches_a_map_is_warned_of() {
     assert!(!square.contains("pixels of its"), "{square}");
 }
 
+/// A sphere has a spectrum, and that is no power law by many powers of ten: it was within 5e22 %.
+fn a_sphere_is_not_self_affine() {
+    let place = tempfile::tempdir().unwrap();
+    let folder = place.path();
+    let scene = format!(
+        "[grid]\npoints = 128\nsize = \"20 um\"\nboundary = \"free\"\n[[surface]]\nkind = \"sphere\"\nradius = \"50 um\"\n{}",
+        REST.replace("pressure", "force")
+    );
+    fs::write(folder.join("sphere.toml"), scene).unwrap();
+    let found = report(folder, &["surface", "sphere.toml"]);
+    assert!(
+        found.contains("# the surface is not self-affine: "),
+        "{found}"
+    );
+    assert!(!found.contains("lies within"), "{found}");
+}
+
 tests![
+    a_sphere_is_not_self_affine,
     parts_of_one_seed_add_by_their_roots_and_are_warned_of,
     a_size_that_stretches_a_map_is_warned_of,
     height_parameters_distribution_and_scales_of_a_sine,

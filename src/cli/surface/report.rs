@@ -19,6 +19,9 @@ const MOST_POINTS: usize = 4096;
 /// Points of the line that stands for the fit in the plot.
 const LINE_POINTS: usize = 200;
 
+/// Factor off the spectrum from which on a fit says nothing of a surface: rings of few modes scatter less.
+const OTHERWISE: f64 = 10.0;
+
 /// Start of the names of counts.
 const COUNT: &str = "points_";
 const COUNTED: usize = 26;
@@ -211,10 +214,17 @@ impl<'a> Report<'a> {
             Ok(fit) => fit,
             Err(error) => return vec![format!("no self-affine fit: {error}")],
         };
-        let mut lines = vec![format!(
-            "self-affine fit: its density lies within {:.0} % of the rings' (rms)",
-            100.0 * (10_f64.powf(fit.scatter) - 1.0)
-        )];
+        let factor = 10_f64.powf(fit.scatter);
+        let mut lines = vec![if factor > OTHERWISE {
+            format!(
+                "the surface is not self-affine: the density of the fit is off the rings' by a factor of {factor:.0e} (rms)"
+            )
+        } else {
+            format!(
+                "self-affine fit: its density lies within {:.0} % of the rings' (rms)",
+                100.0 * (factor - 1.0)
+            )
+        }];
         if !fit.rolloff_seen {
             lines.push("no roll-off is seen: rolloff is the longest wave".to_owned());
         }
