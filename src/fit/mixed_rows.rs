@@ -79,7 +79,7 @@ fn noise(measured: &Measured) -> f64 {
     quartile / (LOWER_QUARTILE * 6.0_f64.sqrt())
 }
 
-/// The least difference of neighbours that is none of rounding in the last bits, N.
+/// The least difference of neighbours beyond rounding in the last bits, N.
 fn step(measured: &Measured) -> f64 {
     let rounding = 1e-12 * measured.force_span;
     let steps = measured.samples.windows(2);

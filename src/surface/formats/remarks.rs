@@ -110,8 +110,8 @@ impl Remarks {
         match (columns, self.named_points(columns), self.named_profile()) {
             (2, _, Some([place, height])) => [place, place, height],
             (2, ..) => [0, 0, 1],
-            (_, Some(order), _) => order,
-            _ => [0, 1, columns - 1],
+            (3.., Some(order), _) => order,
+            _ => [0, 1, columns.saturating_sub(1)],
         }
     }
 

@@ -429,6 +429,9 @@ fn heads_name_the_columns() {
     // Which of more words are the heads of three columns is not known.
     let words = read_map(b"x position y position z\n0 0 1\n1 0 2\n0 1 3\n1 1 4\n").unwrap();
     assert_eq!(words.values, [1.0, 2.0, 3.0, 4.0]);
+    // Names of columns that are not there.
+    let map = read_map(b"# z (nm)\nx y\n1\n2\n").unwrap();
+    assert_eq!((map.columns, map.unit), (1, Some(1e-9)));
     // Of a profile.
     for (head, places) in [
         ("Z [nm],X [um]", Some(1)),
