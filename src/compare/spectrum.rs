@@ -5,7 +5,9 @@ use std::f64::consts::PI;
 use super::table::Table;
 use super::{Comparison, State, Stopped};
 use crate::law::Law;
-use crate::scene::SurfacePart;
+use crate::scene::{Boundary, SurfacePart};
+use crate::study::Setup;
+use crate::surface::fit::fit;
 use crate::surface::spectrum::SpectralMoments;
 use crate::theory::bam::BearingArea;
 use crate::theory::persson::Persson;
@@ -31,8 +33,9 @@ struct Found {
     slope: Option<&'static str>,
 }
 
-/// The scene's own spectrum if the surface is one self-affine part; else a self-affine spectrum
-/// from the longest wave of the cell with the map's rms height, slope and curvature.
+/// The scene's own spectrum if the surface is one self-affine part; else the self-affine spectrum fitted to the map's
+/// (`tabor surface` prints the same one); where the map is not self-affine, a spectrum from the longest wave of the cell with the
+/// map's rms height, slope and curvature.
 fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
     let setup = &comparison.setup;
     let moments = setup.statistics.moments;
@@ -54,6 +57,9 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
             });
         }
     }
+    if let Some(found) = fitted(setup) {
+        return Ok(found);
+    }
     let smallest = 2.0 * PI / grid.lx.max(grid.ly);
     match matched(&moments, smallest) {
         Some(spectrum) => Ok(Found {
@@ -66,6 +72,25 @@ fn spectrum_of(comparison: &Comparison) -> Result<Found, Stopped> {
             "no self-affine spectrum has the surface's rms height, slope and curvature".to_owned(),
         )),
     }
+}
+
+/// The self-affine spectrum fitted to the map, with the map's rms height and slope; none for a surface that is not self-affine.
+fn fitted(setup: &Setup) -> Option<Found> {
+    let moments = setup.statistics.moments;
+    let grid = &setup.surface.grid;
+    let fit = fit(grid, &setup.surface.heights, Boundary::Periodic).ok()?;
+    if !fit.is_close() || !fit.hurst_inside {
+        return None;
+    }
+    let own = fit.spectrum;
+    let wavenumbers = [own.long, own.rolloff, own.short];
+    let own = Spectrum::new(wavenumbers, own.hurst, moments.rms_height()).ok()?;
+    Some(Found {
+        spectrum: widened(&own, &moments)?,
+        rolloff: own.rolloff_wavenumber(),
+        limit: Some("self-affine spectrum fitted to the map"),
+        slope: None,
+    })
 }
 
 /// A spectrum whose long waves begin where it has the rms height and the slope of these moments. The few longest waves of a cell stand for

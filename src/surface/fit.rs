@@ -39,6 +39,8 @@ const BEFORE_BAND: f64 = 1e-3;
 /// Shortest wave number compared on a windowed map, in units of the first: the window distorts
 /// longer waves.
 const WINDOWED_FROM: f64 = 1.5;
+/// Factor off the spectrum from which on a fit says nothing of a surface: rings of few modes scatter less.
+const OTHERWISE: f64 = 10.0;
 /// Range of Hurst exponents tried.
 const HURST: [f64; 2] = [0.01, 0.99];
 /// Number of roll-offs tried before the best is refined.
@@ -63,6 +65,18 @@ pub struct SelfAffineFit {
     /// Root mean square of `log10` of the ratio of ring density to fitted density, over rings with
     /// power.
     pub scatter: f64,
+}
+
+impl SelfAffineFit {
+    /// Root mean square factor between the densities of the rings and that of the fit.
+    pub fn factor(&self) -> f64 {
+        10_f64.powf(self.scatter)
+    }
+
+    /// Whether the surface is self-affine as far as its spectrum shows: the fit lies within a factor of 10 of the rings.
+    pub fn is_close(&self) -> bool {
+        self.factor() <= OTHERWISE
+    }
 }
 
 /// Why a map has no self-affine fit.

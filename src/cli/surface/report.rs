@@ -19,9 +19,6 @@ const MOST_POINTS: usize = 4096;
 /// Points of the line that stands for the fit in the plot.
 const LINE_POINTS: usize = 200;
 
-/// Factor off the spectrum from which on a fit says nothing of a surface: rings of few modes scatter less.
-const OTHERWISE: f64 = 10.0;
-
 /// Start of the names of counts.
 const COUNT: &str = "points_";
 const COUNTED: usize = 26;
@@ -214,8 +211,8 @@ impl<'a> Report<'a> {
             Ok(fit) => fit,
             Err(error) => return vec![format!("no self-affine fit: {error}")],
         };
-        let factor = 10_f64.powf(fit.scatter);
-        let mut lines = vec![if factor > OTHERWISE {
+        let factor = fit.factor();
+        let mut lines = vec![if !fit.is_close() {
             format!(
                 "the surface is not self-affine: the density of the fit is off the rings' by a factor of {factor:.0e} (rms)"
             )
