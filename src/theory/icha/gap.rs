@@ -45,14 +45,11 @@ impl GapField {
         self.gap.iter().sum::<f64>() / self.gap.len() as f64
     }
 
-    /// Mean over the cell of a `traction` of the gap, outside the circles: the DMT force approach.
+    /// Mean over the cell of a `traction` of the gap where there is one: the DMT force approach. Where the model overlaps the surfaces
+    /// would touch, and do not attract each other, though no circle is there.
     pub fn mean_outside(&self, traction: impl Fn(f64) -> f64) -> f64 {
-        let outside = self
-            .gap
-            .iter()
-            .zip(&self.in_contact)
-            .filter(|(_, inside)| !**inside);
-        outside.map(|(&gap, _)| traction(gap)).sum::<f64>() / self.gap.len() as f64
+        let outside = self.gap.iter().filter(|gap| **gap > 0.0);
+        outside.map(|&gap| traction(gap)).sum::<f64>() / self.gap.len() as f64
     }
 }
 
@@ -222,6 +219,19 @@ mod tests {
     use super::super::newton::displacement_by;
     use super::*;
     use crate::theory::icha::lattice::Lattice;
+
+    /// Points on which the model overlaps outside its circles attracted by the whole peak of a law that pulls hardest at gap 0.
+    #[test]
+    fn what_overlaps_does_not_attract() {
+        let field = GapField {
+            gap: vec![0.0, 0.0, 2.0, 3.0],
+            in_contact: vec![true, false, false, false],
+            overlapping: 0.25,
+        };
+        let found = field.mean_outside(|gap| (-gap).exp());
+        let sum = (-2_f64).exp() + (-3_f64).exp();
+        assert!((found - sum / 4.0).abs() < 1e-15, "{found}");
+    }
 
     /// The two-part field against the sum over contacts, images by the lattice's table: a contact
     /// below a pixel, one of ten pixels, and one of 40 across the edge of the cell.
