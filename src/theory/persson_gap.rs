@@ -15,6 +15,14 @@ use std::f64::consts::PI;
 /// Least repulsive pressure at which the theory is used, in `E* h'_rms`, but for attractions of long range.
 const LEAST_LOAD: f64 = 1e-5;
 
+/// Number of cells of the distribution of gaps: the attraction then is within 1e-3 of that of four times as many.
+const CELLS: usize = 240;
+/// Mean square slope, times `(E*/p)^2`, at which contact begins to be lost: the area is `1 - 3e-4`.
+const CONTACT_LOST: f64 = 0.3;
+/// Magnifications at which cells are looked for, and the first of them, as a logarithm.
+const MAGNIFICATIONS: usize = 2000;
+const FIRST_MAGNIFICATION: f64 = 1e-12;
+
 /// A rough surface on a half-space.
 #[derive(Clone, Debug)]
 pub struct RoughContact {
@@ -67,7 +75,7 @@ impl RoughContact {
             theory,
             spectrum,
             contact_modulus: positive("contact_modulus", contact_modulus)?,
-            cells: 240,
+            cells: CELLS,
         })
     }
 
@@ -158,20 +166,19 @@ impl RoughContact {
             self.spectrum.smallest_wavenumber(),
             self.spectrum.largest_wavenumber(),
         );
-        let step = (last / first).ln() / self.cells as f64;
-        let edge = |i: usize| first * (step * i as f64).exp();
+        let edges = self.edges(pressure);
         let state = |i: usize| -> Result<(f64, f64), TheoryError> {
             if i == 0 {
                 return Ok((1.0, self.mean_gap(pressure)?));
             }
-            let slopes = self.spectrum.moment_between(2, first, edge(i));
+            let slopes = self.spectrum.moment_between(2, first, edges[i]);
             let area = self
                 .theory
                 .area_at_variance(slopes * (self.contact_modulus / pressure).powi(2));
             if i == self.cells {
                 return Ok((area, 0.0));
             }
-            Ok((area, self.mean_gap_beyond(edge(i), pressure / area, 1e-6)?))
+            Ok((area, self.mean_gap_beyond(edges[i], pressure / area, 1e-6)?))
         };
         let mut cells = Vec::with_capacity(self.cells);
         let (mut area, mut gap) = state(0)?;
@@ -184,7 +191,7 @@ impl RoughContact {
                 continue;
             }
             let mean = ((area * gap - next_area * next_gap) / weight).max(0.0);
-            let middle = edge(i) * (0.5 * step).exp();
+            let middle = (edges[i] * edges[i + 1]).sqrt();
             let unseen = self.spectrum.moment_between(0, middle, last).sqrt();
             cells.push(GapCell {
                 weight,
@@ -194,6 +201,41 @@ impl RoughContact {
             (area, gap) = (next_area, next_gap);
         }
         Ok(cells)
+    }
+
+    /// Wave numbers between which cells lie, 1/m, rising. Half of the way from one to the next is even in the logarithm of the wave
+    /// number, half in that of the mean square slope seen up to it: a light pressure loses nearly all contact at magnifications
+    /// within 1e-6 of the first.
+    fn edges(&self, pressure: f64) -> Vec<f64> {
+        let (first, last) = (
+            self.spectrum.smallest_wavenumber(),
+            self.spectrum.largest_wavenumber(),
+        );
+        let all = (last / first).ln();
+        let squared = (self.contact_modulus / pressure).powi(2) / CONTACT_LOST;
+        let lost = |log: f64| {
+            let slopes = self.spectrum.moment_between(2, first, first * log.exp());
+            (slopes * squared).ln_1p()
+        };
+        let way = |log: f64| log / all + lost(log) / lost(all);
+        let ratio = (all / FIRST_MAGNIFICATION).ln() / MAGNIFICATIONS as f64;
+        let logs: Vec<f64> = std::iter::once(0.0)
+            .chain((0..=MAGNIFICATIONS).map(|i| FIRST_MAGNIFICATION * (ratio * i as f64).exp()))
+            .collect();
+        let ways: Vec<f64> = logs.iter().map(|log| way(*log)).collect();
+        let edge = |i: usize| {
+            let asked = 2.0 * i as f64 / self.cells as f64;
+            let next = ways
+                .partition_point(|way| *way < asked)
+                .clamp(1, MAGNIFICATIONS + 1);
+            let share = (asked - ways[next - 1]) / (ways[next] - ways[next - 1]);
+            let between = logs[next - 1] + share.clamp(0.0, 1.0) * (logs[next] - logs[next - 1]);
+            first * between.exp()
+        };
+        std::iter::once(first)
+            .chain((1..self.cells).map(edge))
+            .chain([last])
+            .collect()
     }
 
     /// Attraction over the gaps at a repulsive nominal `pressure` (Pa), Pa, positive.
@@ -401,6 +443,31 @@ mod tests {
             refused,
             Err(TheoryError::OutOfRange { name: "range", .. })
         ));
+    }
+
+    /// A light pressure loses nearly all contact within a thousandth of the first magnification: 240 even ones made the attraction 6, 39 and 15 % low. A sum over
+    /// 900 magnifications from there on, with the mean gap by Gauss' rule on graded panels (NumPy), agrees with that over 300 to 4e-5.
+    #[test]
+    fn attraction_at_light_loads_is_that_of_magnifications_near_the_first() {
+        for (hurst, load, attraction) in [
+            (0.05, 1e-3, 0.138_472_6),
+            (0.05, 1e-4, 0.019_297_9),
+            (0.8, 1e-4, 0.028_927_6),
+        ] {
+            let spectrum = Spectrum::new([1.0, 1.0, 10.0], hurst, 1.0).unwrap();
+            let contact = RoughContact::new(Persson::new(0.5).unwrap(), spectrum, 1.0).unwrap();
+            let adhesion = Adhesion {
+                law: Law::Dugdale,
+                work_of_adhesion: 2.0,
+                range: 2.0,
+            };
+            let found = contact.attraction(&adhesion, load * spectrum.rms_slope());
+            let found = found.unwrap();
+            assert!(
+                (found / attraction - 1.0).abs() < 1e-3,
+                "{found}, {attraction}"
+            );
+        }
     }
 
     /// By a sum over 240 magnifications and graded panels from gap 0 on (NumPy); without such panels it was 6 % less.
