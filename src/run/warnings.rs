@@ -1,12 +1,15 @@
 //! What a run that ended warns of.
 
 use crate::device::SelectedDevice;
-use crate::scene::{LoadingScene, Precision, StepChoice};
+use crate::scene::{Control, LoadingScene, Precision, StepChoice};
 use crate::study::{Planned, PullOff, Setup, State, StepRow, Tension, WalkEnd};
 use crate::units::format_si;
 
 /// Forces that differ by this share of the greatest are one.
 const ROUNDING: f64 = 1e-9;
+
+/// Share of a tension that a curve shows.
+const SHOWN: f64 = 0.01;
 
 /// Warnings of a path that ended: steps that rounding ended, and a pull-off that is not known.
 pub(super) fn warnings_at_end(
@@ -48,10 +51,19 @@ pub(super) fn unreached_steps(setup: &Setup, rows: &[StepRow]) -> Option<String>
 /// A warning if rounding ended steps above the tolerance.
 fn rounding(setup: &Setup, device: &SelectedDevice, rows: &[StepRow]) -> Option<String> {
     let asked = setup.scene.solver.tolerance;
+    let loading = &setup.scene.loading;
+    let is_load = matches!(loading.control, Control::Pressure | Control::Force);
+    let is_pressed = |row: &StepRow| {
+        is_load
+            && loading
+                .path
+                .get(row.step - 1)
+                .is_some_and(|load| *load > 0.0)
+    };
     let short: Vec<&StepRow> = rows
         .iter()
-        // Where nothing bears, nothing is left to be resolved.
-        .filter(|row| row.converged && row.state != State::Separated)
+        // Where nothing bears and nothing is asked to, nothing is left to be resolved.
+        .filter(|row| row.converged && (row.state != State::Separated || is_pressed(row)))
         .filter(|row| row.residual.is_finite() && row.residual > asked)
         .collect();
     let first = short.first()?.step;
@@ -106,11 +118,41 @@ pub(super) fn is_loose(loading: &LoadingScene, [lower, upper]: [f64; 2], greates
         && upper - lower > (loading.pull_off_tolerance + ROUNDING) * upper
 }
 
+/// The step of the greatest tension, if that is more than the `passed` one of the way out (N) by what a curve shows.
+fn more_on_the_way_in(rows: &[StepRow], passed: f64) -> Option<&StepRow> {
+    let solved = rows.iter().take_while(|row| row.converged);
+    solved
+        .filter(|row| -row.force > (1.0 + SHOWN) * passed)
+        .min_by(|a, b| a.force.total_cmp(&b.force))
+}
+
+/// Whether a step is further apart than the step `held` was, under a lesser tension.
+fn lets_go_later(loading: &LoadingScene, rows: &[StepRow], held: usize) -> bool {
+    let (before, later) = rows.split_at(held);
+    let tense = &before[held - 1];
+    let places = |row: &StepRow| row.place(loading.control).zip(tense.place(loading.control));
+    let is_further = |row: &StepRow| {
+        places(row).is_some_and(|(there, here)| there < here) && row.force > tense.force
+    };
+    let mut later = later.iter();
+    later.any(|row| row.state == State::Separated || is_further(row))
+}
+
 /// A warning if the pull-off of a finished path is not known to the tolerance.
 fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
     let greatest = greatest_force(&end.rows);
     let tension = Tension::at_end(loading, end);
+    if let Tension::Passed { force, .. } = tension
+        && let Some(more) = more_on_the_way_in(&end.rows, force)
+    {
+        return Some(format!(
+            "the surfaces attracted each other by {} in step {}, on the way in, and by {} at most on the way out: pull-off is at least the first of these; take shorter steps out",
+            newtons(-more.force),
+            more.step,
+            newtons(force)
+        ));
+    }
     match tension {
         Tension::Passed { step, force } if tension.is_cut_off(loading, &end.rows) => Some(format!(
             "the path turns back at its greatest tension, {} in step {step}, or begins there: the surfaces were not pressed beyond it, and pull-off may be greater; press further",
@@ -121,10 +163,7 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
                 State::Contact => "the contact",
                 _ => "the attraction",
             };
-            if end.rows[step..]
-                .iter()
-                .any(|row| row.state == State::Separated)
-            {
+            if lets_go_later(loading, &end.rows, step) {
                 return Some(format!(
                     "{what} held {} in step {step}, the greatest tension of the path, and let go later at a lesser one: its pull-off is not known; pull on from step {step}, or take shorter steps",
                     newtons(force)

@@ -67,13 +67,17 @@ impl Tension {
     /// Of the end of a path.
     ///
     /// Under a prescribed position pull-off is the greatest tension from which the surfaces part further. The tension on the way
-    /// in does not count, and one at which the path ends or turns back has only held.
+    /// in does not count, and one at which the path ends or turns back has only held. What surfaces apart still attract each other by, the tail of
+    /// a law without an end, is no pull-off.
     pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
         let solved = end.rows.iter().take_while(|row| row.converged).count();
         let rows = &end.rows[..solved];
         let ways = (!is_load(loading)).then(|| ways(rows, loading.control));
         let greatest = |way: Option<Way>| {
-            let under_tension = rows.iter().enumerate().filter(|(_, row)| row.force < 0.0);
+            let under_tension = rows
+                .iter()
+                .enumerate()
+                .filter(|(_, row)| row.force < 0.0 && row.state != State::Separated);
             let of_way = under_tension.filter(|&(index, _)| match (&ways, way) {
                 (Some(ways), Some(way)) => ways[index] == way,
                 _ => true,

@@ -103,7 +103,7 @@ impl StepRow {
 
     /// How far a prescribed position brings the surfaces together, m: the approach, or the mean gap with the other sign. `None` under a
     /// load, and in a step without a position.
-    pub(super) fn place(&self, control: Control) -> Option<f64> {
+    pub(crate) fn place(&self, control: Control) -> Option<f64> {
         match control {
             Control::Approach => self.approach,
             Control::MeanGap => self.mean_gap.map(|gap| -gap),
