@@ -1,6 +1,8 @@
 //! A prescribed value about to be solved, as passed to an effect that solves it in its own way.
 
 use super::control::Controller;
+use super::evaluation::Evaluation;
+use super::row::State;
 use super::setup::Setup;
 use super::step::{SolvedStep, finish, misses, solve};
 use crate::backend::BackendError;
@@ -41,6 +43,14 @@ pub(crate) struct Attempt<'a> {
     pub watch: &'a mut dyn FnMut(&Scalars) -> bool,
 }
 
+/// Whether surfaces that are pressed together are found apart: the pressures of the state that the solve began from were so much larger that
+/// their rounding hid the load.
+fn is_unborne(load: &Load, solved: &SolvedStep) -> bool {
+    let is_apart = |found: &Evaluation| found.state == State::Separated;
+    let is_pressed = matches!(load.hold, Hold::Pressure(pressure) if pressure > 0.0);
+    is_pressed && solved.evaluation.as_ref().is_some_and(is_apart)
+}
+
 impl Attempt<'_> {
     /// Solves a load from a start.
     pub fn solve(&mut self, load: &Load, start: &Start) -> Result<Outcome, BackendError> {
@@ -76,6 +86,12 @@ impl Attempt<'_> {
         let outcome = self.solve(load, start)?;
         let outcome = self.restart_stalled(load, outcome)?;
         let mut solved = self.finish(load, &outcome)?;
+        if *start != Start::Cold && is_unborne(load, &solved) {
+            drop(solved);
+            let mut afresh = self.solve(load, &Start::Cold)?;
+            afresh.iterations += outcome.iterations;
+            solved = self.finish(load, &afresh)?;
+        }
         let settings = &self.setup.scene.solver;
         let mut tolerance = self.tolerance;
         for _ in 0..CLOSER {
