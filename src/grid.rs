@@ -7,6 +7,11 @@
 
 use std::f64::consts::PI;
 
+/// Longest side of a field in a picture, pixels.
+pub(crate) const LONGEST_DRAWN: u32 = 1780;
+/// Least longer side of a drawn field, pixels: smaller grids are enlarged by a whole factor.
+const ENLARGED: f64 = 512.0;
+
 /// A regular grid of `nx` by `ny` points over `lx` by `ly` metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Grid {
@@ -90,6 +95,25 @@ impl Grid {
         x.max(y)
     }
 
+    /// Pixels along x and y of a picture of this grid, its longer side at most `limit`; square on the surface.
+    ///
+    /// For dx = dy a point becomes a whole number of pixels, or a pixel a whole number of points
+    /// (except for a remainder that is spread evenly).
+    pub(crate) fn drawn_size(&self, limit: u32) -> [u32; 2] {
+        let finest = self.dx().min(self.dy());
+        let points = self.lx.max(self.ly) / finest;
+        let pixel = if points <= f64::from(limit) {
+            // Enlarging must not exceed the limit either, for a grid slightly below half of it.
+            let factor = (ENLARGED / points).ceil().max(1.0);
+            let fitting = (f64::from(limit) / points).floor().max(1.0);
+            finest / factor.min(fitting)
+        } else {
+            finest * (points / f64::from(limit)).ceil()
+        };
+        let pixels = |length: f64| ((length / pixel).round() as u32).clamp(1, limit);
+        [pixels(self.lx), pixels(self.ly)]
+    }
+
     /// Lengths along x and y, of which that along an axis of one point is the other one, too.
     pub(crate) fn varying(&self, [x, y]: [f64; 2]) -> [f64; 2] {
         match [self.nx, self.ny] {
@@ -141,6 +165,20 @@ pub fn signed_index(k: usize, n: usize) -> i64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_picture_keeps_the_shape_of_the_surface() {
+        let drawn = |points, size| Grid::new(points, size).drawn_size(1800);
+        assert_eq!(drawn([8, 8], [1.0, 1.0]), [512, 512]);
+        assert_eq!(drawn([300, 150], [2.0, 1.0]), [600, 300]);
+        assert_eq!(drawn([1024, 1024], [1.0, 1.0]), [1024, 1024]);
+        assert_eq!(drawn([2048, 2048], [1.0, 1.0]), [1024, 1024]);
+        assert_eq!(drawn([4096, 2048], [2.0, 1.0]), [1365, 683]);
+        assert_eq!(drawn([512, 512], [2.0, 1.0]), [1024, 512]);
+        assert_eq!(drawn([1024, 1], [1.0, 1.0 / 1024.0]), [1024, 1]);
+        assert_eq!(drawn([1, 1], [1.0, 1.0]), [512, 512]);
+        assert_eq!(drawn([1000, 2], [1.0, 1.0]), [1000, 1000]);
+    }
 
     #[test]
     fn wavenumbers_are_signed_and_scaled() {

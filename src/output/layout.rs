@@ -9,8 +9,6 @@ use crate::units::format_si;
 
 /// Longest side of a picture, pixels.
 pub const LONGEST_SIDE: u32 = 2048;
-/// Longest side of the field in a picture: the rest is for margins, texts and the colour bar.
-pub(super) const LONGEST_FIELD: u32 = 1780;
 
 /// White space around everything.
 const MARGIN: u32 = 28;

@@ -10,9 +10,9 @@ use super::colour_scale::ColourScale;
 use super::error::OutputError;
 use super::fields::FieldRows;
 use super::folder::write_within;
-use super::layout::{Contents, LONGEST_FIELD, Layout, Rect, tick_mark};
-use super::resample::{drawn_size, resample};
-use crate::grid::Grid;
+use super::layout::{Contents, Layout, Rect, tick_mark};
+use super::resample::resample;
+use crate::grid::{Grid, LONGEST_DRAWN};
 use crate::scene::{Control, FieldName, LoadingScene};
 use crate::units::format_si;
 
@@ -111,7 +111,7 @@ impl Picture<'_> {
             });
         }
         let scale = ColourScale::between(self.field, ends);
-        let field = drawn_size(&self.grid, LONGEST_FIELD);
+        let field = self.grid.drawn_size(LONGEST_DRAWN);
         let layout = Layout::new(&Contents {
             title: self.title,
             caption: &self.caption(),

@@ -3,28 +3,6 @@
 use super::fields::FieldRows;
 use crate::grid::Grid;
 
-/// Least longer side of a drawn field, pixels: smaller grids are enlarged by a whole factor.
-const ENLARGED: f64 = 512.0;
-
-/// Pixels along x and y for a field, its longer side at most `limit`; square on the surface.
-///
-/// For dx = dy a point becomes a whole number of pixels, or a pixel a whole number of points
-/// (except for a remainder that is spread evenly).
-pub(super) fn drawn_size(grid: &Grid, limit: u32) -> [u32; 2] {
-    let finest = grid.dx().min(grid.dy());
-    let points = grid.lx.max(grid.ly) / finest;
-    let pixel = if points <= f64::from(limit) {
-        // Enlarging must not exceed the limit either, for a grid slightly below half of it.
-        let factor = (ENLARGED / points).ceil().max(1.0);
-        let fitting = (f64::from(limit) / points).floor().max(1.0);
-        finest / factor.min(fitting)
-    } else {
-        finest * (points / f64::from(limit)).ceil()
-    };
-    let pixels = |length: f64| ((length / pixel).round() as u32).clamp(1, limit);
-    [pixels(grid.lx), pixels(grid.ly)]
-}
-
 /// The rows of a field of shape `[ny, nx]` at `size` pixels, row 0 first; of them one is held at a time.
 ///
 /// An axis with more pixels than points takes the nearest point; one with fewer takes the mean over
@@ -93,23 +71,6 @@ fn weights(points: usize, pixels: usize) -> Vec<Vec<(usize, f64)>> {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    fn size(points: [usize; 2], size: [f64; 2]) -> [u32; 2] {
-        drawn_size(&Grid::new(points, size), 1800)
-    }
-
-    #[test]
-    fn sizes_keep_the_shape_of_the_surface() {
-        assert_eq!(size([8, 8], [1.0, 1.0]), [512, 512]);
-        assert_eq!(size([300, 150], [2.0, 1.0]), [600, 300]);
-        assert_eq!(size([1024, 1024], [1.0, 1.0]), [1024, 1024]);
-        assert_eq!(size([2048, 2048], [1.0, 1.0]), [1024, 1024]);
-        assert_eq!(size([4096, 2048], [2.0, 1.0]), [1365, 683]);
-        assert_eq!(size([512, 512], [2.0, 1.0]), [1024, 512]);
-        assert_eq!(size([1024, 1], [1.0, 1.0 / 1024.0]), [1024, 1]);
-        assert_eq!(size([1, 1], [1.0, 1.0]), [512, 512]);
-        assert_eq!(size([1000, 2], [1.0, 1.0]), [1000, 1000]);
-    }
 
     /// A map of one row fills as many rows of pixels as the picture is high: each is summed once.
     #[test]

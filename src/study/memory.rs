@@ -7,7 +7,7 @@
 use super::cost::Cost;
 use crate::backend::Shape;
 use crate::backend::cpu::{exchange_bytes, largest_slab};
-use crate::grid::{Boundary, Grid};
+use crate::grid::{Boundary, Grid, LONGEST_DRAWN};
 use crate::scene::{Edges, FieldName, Scene, StepChoice, SurfacePart};
 use crate::solver::{solved_shape, works_in_turn};
 use crate::surface::points_before_resampling;
@@ -30,8 +30,6 @@ const SHORTEST_RETURNED: u64 = 32 << 20;
 const DRAWN: u64 = DOUBLE + 3;
 /// Bytes of the rows and columns that a rank sends at once.
 const ROUND: u64 = 16 << 20;
-/// Points of the largest picture.
-const MOST_DRAWN: u64 = 1780 * 1780;
 
 /// Bytes of a run, by where they are.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -129,7 +127,7 @@ impl Memory {
         let step = iterating.max(idle + evaluating) + before + results;
         // Rows of others on their way through the first rank.
         let coming = if ranks > 1 { 2 * ROUND.min(field) } else { 0 };
-        let writing = writing(scene, points, grid.len() as u64) + coming;
+        let writing = writing(scene, points, &grid) + coming;
         let ended = idle + points_before + writing.max(results.max(result) + field + coming);
         let walking = first.max(step).max(ended).max(idle + starting);
         // A load between two steps is solved beside the states of both and the result of the second; its own state
@@ -249,9 +247,9 @@ fn building(scene: &Scene, grid: Grid, rows: usize, ranks: usize) -> u64 {
     built.max(DOUBLE * points + map)
 }
 
-/// Bytes of a result of so many points, of `all` of the grid, and of what is written of it: values that are worked out
+/// Bytes of a result of so many points of a grid, and of what is written of it: values that are worked out
 /// for a file or a picture, and the picture.
-fn writing(scene: &Scene, points: u64, all: u64) -> u64 {
+fn writing(scene: &Scene, points: u64, grid: &Grid) -> u64 {
     let output = &scene.output;
     // Heights are, where the solid has yielded.
     let is_made =
@@ -264,7 +262,8 @@ fn writing(scene: &Scene, points: u64, all: u64) -> u64 {
     let drawn = if output.images.is_empty() {
         0
     } else {
-        DRAWN * all.min(MOST_DRAWN)
+        let [width, height] = grid.drawn_size(LONGEST_DRAWN).map(u64::from);
+        DRAWN * width * height
     };
     (EVALUATION + DOUBLE * u64::from(made)) * points + drawn
 }
@@ -290,4 +289,25 @@ fn coarse_start(cost: &Cost, points: u64, solver: u64, ranks: usize) -> u64 {
     // those of the rows that the coarse grid has here.
     let between = if ranks > 1 { 2 * DOUBLE * points } else { 0 };
     level.max(DOUBLE * points * 3 / 2 + between)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::path::Path;
+
+    /// A grid below 512 points a side is enlarged by a whole factor, and the pixels of a narrow one are square on the surface.
+    #[test]
+    fn a_picture_is_counted_as_it_is_drawn() {
+        let text = "grid = { points = 8, size = 1 }\nsolid = { contact_modulus = 1 }\nsurface = [{ kind = \"flat\" }]\nloading = { control = \"pressure\", path = [1] }\noutput = { images = [\"gap\"] }\n";
+        let scene = Scene::parse(text, "s.toml", Path::new("."), &[]).expect("a scene");
+        for (points, pixels) in [
+            ([509, 509], [1018, 1018]),
+            ([512, 512], [512, 512]),
+            ([16384, 16], [1638, 1638]),
+        ] {
+            let drawn = writing(&scene, 0, &Grid::new(points, [1.0, 1.0]));
+            assert_eq!(drawn, DRAWN * pixels[0] * pixels[1], "{points:?}");
+        }
+    }
 }
