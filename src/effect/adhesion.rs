@@ -1,7 +1,7 @@
 //! `[adhesion]`: a cohesive law acts across the gap.
 
 use crate::law::Law;
-use crate::scene::{Range, Scene, Treatment};
+use crate::scene::{Boundary, Range, Scene, Treatment};
 use crate::study::{Column, Evaluation, Hooks, Plan, Regime, Setup};
 use crate::units::format_si;
 
@@ -131,7 +131,7 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
         ));
     }
     warnings.extend(warning_of_small_reach(plan, regime));
-    if adhesion.treatment == Treatment::Dmt {
+    if adhesion.treatment == Treatment::Dmt || is_plate(plan) {
         return warnings;
     }
     let chi = regime.chi;
@@ -181,6 +181,17 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
     warnings.extend(warning_of_small_contact(plan, regime));
     warnings.extend(warning_of_taper(plan, regime));
     warnings
+}
+
+/// Whether an endless flat attracts everywhere alike: it parts at once, without an edge.
+fn is_plate(plan: &Plan) -> bool {
+    let grid = &plan.scene.grid;
+    let map = plan
+        .scene
+        .adhesion
+        .as_ref()
+        .and_then(|law| law.map.as_ref());
+    grid.boundary == Boundary::Periodic && map.is_none() && plan.outline.moments.rms_height() == 0.0
 }
 
 /// The rms height over the range, of surfaces that are no sphere.

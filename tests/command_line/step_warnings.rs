@@ -82,6 +82,19 @@ loading = { control = "force", path = ["2 uN"] }
     let rough = "surface=[{ kind = \"self-affine\", hurst = 0.8, rms_height = \"100 nm\", longest = \"32 um\", rolloff = \"16 um\", shortest = \"8 um\" }]";
     let summits = said(&["--set", "grid.boundary=periodic", "--set", rough]);
     assert!(summits.contains("a stiff summit is attracted"), "{summits}");
+    // Endless flats part everywhere at once: no edge that pixels could trap.
+    let flat = |boundary: &str| {
+        let boundary = format!("grid.boundary={boundary}");
+        let flat = "surface=[{ kind = \"flat\" }]";
+        let sharp = "adhesion.taper=0";
+        said(&["--set", &boundary, "--set", flat, "--set", sharp])
+    };
+    assert!(
+        !flat("periodic").contains("contact edge"),
+        "{}",
+        flat("periodic")
+    );
+    assert!(flat("free").contains("contact edge"), "{}", flat("free"));
 }
 
 /// The contact grows with the load, as it does at a tolerance that resolves the load.
@@ -212,8 +225,61 @@ output = {{ images = [] }}
     assert!(guesses > 0);
 }
 
+/// A sphere held in contact by 21.49 uN at an approach of 0 (JKR's pull-off is 23.6 uN) is carried beyond reach in one step. The tail of an exponential law of
+/// 4e-26 N was its pull-off there, and one of 65 fN nearer by, without a word.
+fn the_tail_of_a_law_is_no_pull_off() {
+    let ends = [
+        (&[-12e-6][..], "and let go later at a lesser one"),
+        (&[-5e-6], "and let go later at a lesser one"),
+        (&[-5e-6, -12e-6], "on the way in, and by 64.7"),
+    ];
+    for (out, words) in ends {
+        let path = [&[0.0, 3e-6], out].concat();
+        let folder = scene(&format!(
+            r#"
+grid = {{ points = 64, size = "60 um", boundary = "free" }}
+solid = {{ contact_modulus = "1 MPa" }}
+surface = [{{ kind = "sphere", radius = "100 um" }}]
+adhesion = {{ law = "exponential", work_of_adhesion = "50 mJ/m^2", range = "0.25 um" }}
+loading = {{ control = "approach", path = {path:?} }}
+output = {{ images = [] }}
+"#
+        ));
+        let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+        let said = errors(&output);
+        assert_eq!(status(&output), 0, "{said}");
+        assert!(said.contains("21.49 µN in step 1"), "{said}");
+        assert!(said.contains(words), "{said}");
+        let pull_off = &summary(&folder.path().join("out"))["pull_off_force"];
+        assert_eq!(pull_off.is_null(), out.len() == 1, "{pull_off}");
+    }
+}
+
+/// The pressures of a closed wave are 6e9 times those of the load that it is let down to, which single precision does not resolve beside them: the
+/// surfaces were 2.1 mm apart, and that was converged. The load is solved for from the undeformed surfaces then.
+fn a_load_that_rounding_hides_is_borne() {
+    let folder = scene(
+        r#"
+grid = { points = 32, size = "10 um" }
+solid = { contact_modulus = "1 GPa" }
+surface = [{ kind = "wavy", amplitude = "10 nm", wavelength = ["10 um", "10 um"] }]
+loading = { control = "force", path = [2e-3, 3e-13] }
+solver = { precision = "single", backend = "cpu" }
+output = { images = [] }
+"#,
+    );
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let rows = table(&folder.path().join("out/curve.csv"));
+    let approach = number(&rows[1], "approach").expect("a position");
+    // The surfaces touch to rounding of the height of the wave.
+    assert!(approach.abs() < 1e-3 * 10e-9, "{approach}");
+}
+
 tests![
     a_jump_that_is_a_guess_is_warned_of,
+    a_load_that_rounding_hides_is_borne,
+    the_tail_of_a_law_is_no_pull_off,
     attraction_over_few_pixels_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
