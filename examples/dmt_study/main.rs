@@ -3,7 +3,8 @@
 //! `cargo run --release --example dmt_study [LARGEST]` runs the surfaces of Hurst exponent 0.4, 0.6, 0.8 and
 //! N = 16, 32, 64 (up to LARGEST, default 64) with three seeds each, writes `docs/dmt_study.csv` row by row,
 //! then the pictures `docs/pictures/dmt_study_*.png` and the docs' two tables, of misses and of claims, on standard output.
-//! `dmt_study asperities` recomputes the rows of the interacting asperities and keeps the others,
+//! `dmt_study asperities` recomputes the rows of the interacting asperities and keeps the others, `dmt_study theories` those of Persson and
+//! GW-M,
 //! `dmt_study missing` computes only missing ones of them, `dmt_study draw` only draws the table,
 //! `dmt_study boxes` solves wider boxes.
 
@@ -67,12 +68,7 @@ fn run_asperities(missing: bool) -> Result<(), Box<dyn Error>> {
         .into_iter()
         .filter(|row| missing || !is_of_asperities(row))
         .collect();
-    let head = text.lines().next().unwrap_or_default();
-    let asperities = format!(
-        "# icha rows: cargo run --release --example dmt_study asperities (commit {})",
-        commit()
-    );
-    let mut file = begin(&[head, asperities.as_str(), UNITS])?;
+    let mut file = begin_again(&text, "icha rows", "asperities")?;
     for group in kept.chunk_by(|one, next| one.case == next.case) {
         keep(&mut file, group)?;
         let case = group[0].case;
@@ -80,6 +76,21 @@ fn run_asperities(missing: bool) -> Result<(), Box<dyn Error>> {
             let clock = Instant::now();
             keep(&mut file, &rows::icha_rows(case, &Sample::new(case)?)?)?;
             eprintln!("{case:?}: {:.1} s", clock.elapsed().as_secs_f64());
+        }
+    }
+    Ok(())
+}
+
+/// Recomputes the rows of the theories and keeps all others.
+fn run_theories() -> Result<(), Box<dyn Error>> {
+    let text = std::fs::read_to_string(TABLE)?;
+    let rows = rows::read(&text)?;
+    let mut file = begin_again(&text, "persson and gw-m rows", "theories")?;
+    for group in rows.chunk_by(|one, next| one.case == next.case) {
+        let Case { hurst, ratio, seed } = group[0].case;
+        match seed {
+            0 => keep(&mut file, &rows::theory_rows(hurst, ratio)?)?,
+            _ => keep(&mut file, group)?,
         }
     }
     Ok(())
@@ -129,6 +140,21 @@ fn begin(head: &[&str]) -> std::io::Result<File> {
     Ok(file)
 }
 
+/// Begins the table `text` anew, of which the command `dmt_study argument` computes these `rows`.
+fn begin_again(text: &str, rows: &str, argument: &str) -> std::io::Result<File> {
+    let own = format!("# {rows}: ");
+    let heads = text.lines().take_while(|line| line.starts_with('#'));
+    let mut heads: Vec<&str> = heads
+        .filter(|line| *line != UNITS && !line.starts_with(&own))
+        .collect();
+    let command = format!(
+        "{own}cargo run --release --example dmt_study {argument} (commit {})",
+        commit()
+    );
+    heads.extend([command.as_str(), UNITS]);
+    begin(&heads)
+}
+
 fn keep(file: &mut File, rows: &[Row]) -> std::io::Result<()> {
     file.write_all(rows::lines(rows).as_bytes())?;
     file.flush()
@@ -138,6 +164,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     let argument = std::env::args().nth(1);
     match argument.as_deref() {
         Some("draw") => {}
+        Some("theories") => run_theories()?,
         Some("boxes") => return run_boxes(),
         Some("asperities") => run_asperities(false)?,
         Some("missing") => run_asperities(true)?,

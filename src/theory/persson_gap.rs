@@ -15,8 +15,8 @@ use std::f64::consts::PI;
 /// Least repulsive pressure at which the theory is used, in `E* h'_rms`, but for attractions of long range.
 const LEAST_LOAD: f64 = 1e-5;
 
-/// Number of cells of the distribution of gaps: the attraction then is within 1e-3 of that of four times as many.
-const CELLS: usize = 240;
+/// Number of cells of the distribution of gaps: the attraction of a law whose range is 5e-4 of the roughness is within 1e-3 then.
+const CELLS: usize = 480;
 /// Mean square slope, times `(E*/p)^2`, at which contact begins to be lost: the area is `1 - 3e-4`.
 const CONTACT_LOST: f64 = 0.3;
 /// Magnifications at which cells are looked for, and the first of them, as a logarithm.
@@ -470,7 +470,8 @@ mod tests {
         }
     }
 
-    /// By a sum over 240 magnifications and graded panels from gap 0 on (NumPy); without such panels it was 6 % less.
+    /// By sums over 480 and 1920 even magnifications beside a hundred near the first and the folded law in closed form (NumPy), which are 3e-4 apart; without
+    /// panels that are graded from gap 0 on it was 8 % less.
     #[test]
     fn an_exponential_law_far_shorter_than_the_roughness_is_not_missed() {
         let wave = |length: f64| 2.0 * PI / length;
@@ -483,6 +484,6 @@ mod tests {
         };
         let pressure = 1e-3 * 1e6 * spectrum.rms_slope();
         let found = contact.attraction(&adhesion, pressure).unwrap();
-        assert!((found / 13_204.1 - 1.0).abs() < 1e-3, "{found}");
+        assert!((found / 13_451.0 - 1.0).abs() < 2e-3, "{found}");
     }
 }

@@ -11,6 +11,7 @@ use std::process::{Command, Stdio};
 use std::time::{Duration, Instant};
 
 use crate::shared::binary::{self, errors, number, scene, signal, table, tabor, without_adapter};
+use crate::shared::device::device;
 use crate::shared::trials::tests;
 
 /// The columns that other programs rely on, in their order.
@@ -72,9 +73,36 @@ fn rows(folder: &Path) -> Vec<HashMap<String, String>> {
     table(&path)
 }
 
+/// Leaves a graphics processor out: a software driver takes 8 s to compile its shaders for a grid.
+const CPU: &str = "solver.backend=\"cpu\"";
+
+/// Its rows have the errors of the processor's, on a grid of 16 points: 1e-4 of the residual leaves the field right to 1e-3.
+fn a_graphics_processor_has_rows_of_its_own() {
+    device();
+    let folder = scene(HERTZ);
+    let output = command(
+        folder.path(),
+        &["--budget", "60 s", "--set", "grid.points=16"],
+    )
+    .output()
+    .expect("it runs");
+    assert_eq!(output.status.code(), Some(0), "{}", errors(&output));
+    let rows = rows(folder.path());
+    let of = |backend: &str| {
+        let own = rows.iter().filter(move |row| row["backend"] == backend);
+        own.filter(|row| row["points"] == "16" && row["varied"] == "precision")
+    };
+    assert!(of("gpu").count() >= 2, "{rows:?}");
+    for row in of("gpu") {
+        let error = |row| number(row, "error_area").expect("judged");
+        let other = of("cpu").next().expect("a row of the processor");
+        assert!((error(row) - error(other)).abs() < 1e-3, "{row:?}");
+    }
+}
+
 fn a_sphere_is_judged_by_its_closed_form() {
     let folder = scene(HERTZ);
-    let output = command(folder.path(), &["--budget", "60 s"])
+    let output = command(folder.path(), &["--budget", "60 s", "--set", CPU])
         .output()
         .expect("it runs");
     let text = errors(&output);
@@ -563,6 +591,7 @@ fn the_page_shows_what_was_measured() {
 }
 
 tests![
+    a_graphics_processor_has_rows_of_its_own,
     a_sphere_is_judged_by_its_closed_form,
     the_processor_alone_where_the_scene_says_so,
     what_there_is_no_time_for_is_left_out_and_listed,

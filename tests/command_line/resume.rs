@@ -11,7 +11,7 @@ use crate::shared::binary::{self, command, errors, scene, status, summary, tabor
 use crate::shared::device::device;
 use crate::shared::random::Random;
 use crate::shared::run_folder::{ROUGH, expect_same, files, rows};
-use crate::shared::trials::{ignore, tests};
+use crate::shared::trials::{ignore, is_long, tests};
 
 fn run_whole(folder: &Path, extra: &[&str]) -> Duration {
     let clock = Instant::now();
@@ -102,7 +102,9 @@ fn a_relaxing_solid_goes_on_with_what_it_remembers() {
 
 fn killed_runs_on_the_graphics_processor() {
     device();
-    kill_and_resume(ROUGH, 3, &["--backend", "gpu"]);
+    // Each compiles its shaders anew.
+    let kills = if is_long() { 3 } else { 1 };
+    kill_and_resume(ROUGH, kills, &["--backend", "gpu"]);
 }
 
 /// Starts a run and waits until `count` steps are in its curve.

@@ -12,7 +12,7 @@ use tabor::solver::{ContactSolver, Hold, Load, Problem, Start, plain};
 
 use crate::operator::values;
 use crate::shared::device::{device_with_double, double_backend};
-use crate::shared::trials::tests;
+use crate::shared::trials::{is_long, tests};
 
 /// Iterations that are compared one by one.
 const COMPARED: usize = 10;
@@ -270,6 +270,13 @@ fn compare(name: &str, walked: &Walked, plain: &Walked, [rounding, floor]: [f64;
     assert!(apart(&walked.gap, &plain.gap) < 1e-6, "{name}");
 }
 
+/// Under what a case is compared.
+#[derive(Clone, Copy, PartialEq)]
+enum Controls {
+    All,
+    InTurn,
+}
+
 fn cases() -> Vec<(String, Problem)> {
     let mut cases = Vec::new();
     for (boundary, points, kind) in [
@@ -308,13 +315,15 @@ fn cases() -> Vec<(String, Problem)> {
     cases
 }
 
-/// Compares the cases of these boundaries on a backend, to a rounding and a floor of the residual.
+/// Compares the cases of these boundaries on a backend, to a rounding and a floor of the residual: each under all `controls`, or under one,
+/// the next of them in turn.
 fn compare_all(
     make: &dyn Fn() -> Box<dyn Backend + Send>,
     boundaries: &[Boundary],
+    controls: Controls,
     bounds: [f64; 2],
 ) {
-    for (name, problem) in cases() {
+    for (place, (name, problem)) in cases().into_iter().enumerate() {
         if !boundaries.contains(&problem.boundary) {
             continue;
         }
@@ -323,7 +332,12 @@ fn compare_all(
             println!("{name}: no transform of this size here");
             continue;
         }
-        for (control, load) in loads(&problem) {
+        let loads = loads(&problem);
+        let in_turn = place % loads.len();
+        for (index, (control, load)) in loads.into_iter().enumerate() {
+            if controls == Controls::InTurn && index != in_turn {
+                continue;
+            }
             let start = start(&problem, &load);
             // The sharp law begins carefully in runs.
             let sharp = problem.law.is_adhesive() && !problem.law.has_tail();
@@ -352,16 +366,23 @@ const ROUNDING: [f64; 2] = [1e-8, 1e-14];
 /// law, control and boundary.
 fn the_processor_follows_the_plain_text() {
     let make = || cpu::double(None);
-    compare_all(&make, &[Boundary::Periodic, Boundary::Free], ROUNDING);
+    let both = [Boundary::Periodic, Boundary::Free];
+    compare_all(&make, &both, Controls::All, ROUNDING);
 }
 
 fn follows_on_the_graphics_processor(boundary: Boundary) {
     let device = device_with_double();
     let make = || -> Box<dyn Backend + Send> { Box::new(double_backend(device)) };
-    compare_all(&make, &[boundary], ROUNDING);
+    let controls = if is_long() {
+        Controls::All
+    } else {
+        Controls::InTurn
+    };
+    compare_all(&make, &[boundary], controls, ROUNDING);
 }
 
-/// The same on a graphics processor in double precision, whose sums and transforms round elsewhere.
+/// The same on a graphics processor in double precision, whose sums and transforms round elsewhere. A software driver takes a second and more for each
+/// solve: a case has one of the controls, the next one has another, and with `TABOR_LONG=1` each has all.
 fn the_graphics_processor_follows_the_plain_text() {
     follows_on_the_graphics_processor(Boundary::Periodic);
 }

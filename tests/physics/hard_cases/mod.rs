@@ -1,7 +1,7 @@
 //! The hard cases: each converges to the right answer within its bound, or says that it did not.
 //!
-//! Every case runs on every path of the processor that the build has; on the graphics processor every fourth one, in
-//! mixed and single precision in turn, and every second of those with stretched numbers in double (with `TABOR_LONG=1` all in each). What comes out is asked of
+//! Every case runs on every path of the processor that the build has; on the graphics processor every eighth one, in
+//! mixed and single precision in turn, and every fourth of those with stretched numbers in double (with `TABOR_LONG=1` all in each). What comes out is asked of
 //! the files: an equilibrium, in double precision, by transforms and laws of the test's own; a closed form where
 //! there is one; and the numbers of the processor in double precision for the other paths. The table
 //! in docs/hard_cases.md is written by this test (`TABOR_HARD_CASES=write`) and compared by it;

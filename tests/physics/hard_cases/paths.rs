@@ -101,13 +101,13 @@ impl Path {
     /// Whether it tries a case of this name, at this place in the list.
     ///
     /// A software driver takes longer to compile the shaders of a case than all else here. So on the graphics
-    /// processor every fourth case is tried, in mixed and in single precision in turn, and every second of those that double
+    /// processor every eighth case is tried, in mixed and in single precision in turn, and every fourth of those that double
     /// precision is for.
     pub fn tries(&self, case: &str, place: usize) -> bool {
         let turn = match (self.backend, self.precision) {
-            ("gpu", "double") => is_long() || place.is_multiple_of(2),
-            ("gpu", "mixed") => is_long() || place.is_multiple_of(8),
-            ("gpu", "single") => is_long() || place % 8 == 4,
+            ("gpu", "double") => is_long() || place.is_multiple_of(4),
+            ("gpu", "mixed") => is_long() || place.is_multiple_of(16),
+            ("gpu", "single") => is_long() || place % 16 == 8,
             _ => true,
         };
         turn && (self.only.is_empty() || self.only.iter().any(|word| case.starts_with(word)))
