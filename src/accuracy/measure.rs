@@ -67,11 +67,6 @@ pub fn most_compressed_step(scene: &Scene) -> usize {
     })
 }
 
-/// Whether the path prescribes a load.
-pub fn is_load(control: Control) -> bool {
-    matches!(control, Control::Pressure | Control::Force)
-}
-
 /// Runs the setting in `setup` along `path`; `watch` gets the step and the iteration and returns
 /// whether to continue. Only steps that the path with half the steps also has are compared, so that
 /// all settings are judged by the same steps.
@@ -141,7 +136,7 @@ fn point_at(rows: &[StepRow], place: StepPosition, scene: &Scene) -> Option<Poin
 }
 
 fn point(row: &StepRow, scene: &Scene) -> Point {
-    let answer = match (is_load(scene.loading.control), scene.grid.boundary) {
+    let answer = match (scene.loading.control.is_load(), scene.grid.boundary) {
         (true, Boundary::Periodic) => row.mean_gap,
         (true, Boundary::Free) => row.approach,
         (false, _) => Some(row.force),

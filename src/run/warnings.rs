@@ -1,7 +1,7 @@
 //! What a run that ended warns of.
 
 use crate::device::SelectedDevice;
-use crate::scene::{Control, LoadingScene, Precision, StepChoice};
+use crate::scene::{LoadingScene, Precision, StepChoice};
 use crate::study::{Planned, PullOff, Setup, State, StepRow, Tension, WalkEnd};
 use crate::units::format_si;
 
@@ -52,9 +52,8 @@ pub(super) fn unreached_steps(setup: &Setup, rows: &[StepRow]) -> Option<String>
 fn rounding(setup: &Setup, device: &SelectedDevice, rows: &[StepRow]) -> Option<String> {
     let asked = setup.scene.solver.tolerance;
     let loading = &setup.scene.loading;
-    let is_load = matches!(loading.control, Control::Pressure | Control::Force);
     let is_pressed = |row: &StepRow| {
-        is_load
+        loading.control.is_load()
             && loading
                 .path
                 .get(row.step - 1)

@@ -10,6 +10,13 @@ use super::{
 };
 use crate::units::{self, Dimension};
 
+impl Control {
+    /// Whether a load is prescribed, which the surfaces may fail to carry, and not a position.
+    pub(crate) fn is_load(self) -> bool {
+        matches!(self, Control::Pressure | Control::Force)
+    }
+}
+
 /// Most steps of a path, so that a typing error cannot exhaust memory.
 pub(super) const MOST_STEPS: usize = 1_000_000;
 

@@ -166,7 +166,7 @@ impl LoadingScene {
         };
         let table = with(table, "spring", self.spring);
         let table = with(table, "until", self.until_apart.then_some(APART));
-        let is_load = matches!(self.control, Control::Pressure | Control::Force);
+        let is_load = self.control.is_load();
         with(
             table,
             "pull_off_tolerance",

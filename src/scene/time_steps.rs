@@ -187,7 +187,7 @@ impl Cutter {
         legs: &[Leg],
         tolerance: f64,
     ) -> Cutter {
-        let creeps = creeps || matches!(control, Control::Pressure | Control::Force);
+        let creeps = creeps || control.is_load();
         let modes = if creeps {
             retardation(solid)
         } else {

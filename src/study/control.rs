@@ -59,7 +59,7 @@ impl<'s> Controller<'s> {
 
     /// Whether the path prescribes a load, which the surfaces may fail to carry.
     pub fn is_load(&self) -> bool {
-        matches!(self.control, Control::Pressure | Control::Force)
+        self.control.is_load()
     }
 
     /// Area over which the solved mean pressure is a mean, m^2.

@@ -72,7 +72,7 @@ impl Tension {
     pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
         let solved = end.rows.iter().take_while(|row| row.converged).count();
         let rows = &end.rows[..solved];
-        let ways = (!is_load(loading)).then(|| ways(rows, loading.control));
+        let ways = (!loading.control.is_load()).then(|| ways(rows, loading.control));
         let greatest = |way: Option<Way>| {
             let under_tension = rows
                 .iter()
@@ -179,18 +179,15 @@ fn ways(rows: &[StepRow], control: Control) -> Vec<Way> {
         .collect()
 }
 
-fn is_load(loading: &LoadingScene) -> bool {
-    matches!(loading.control, Control::Pressure | Control::Force)
-}
-
 /// Whether a step may end in pull-off, so that the state before it is needed.
 pub(super) fn may_let_go(setup: &Setup, value: f64) -> bool {
-    is_load(&setup.scene.loading) && setup.law.is_adhesive() && value < 0.0
+    setup.scene.loading.control.is_load() && setup.law.is_adhesive() && value < 0.0
 }
 
 /// Whether any step of a path may end with the surfaces separated by its tension, under an adhesive law.
 pub(super) fn is_tensile(loading: &LoadingScene) -> bool {
-    is_load(loading) && (loading.until_apart || loading.path.iter().any(|value| *value < 0.0))
+    loading.control.is_load()
+        && (loading.until_apart || loading.path.iter().any(|value| *value < 0.0))
 }
 
 /// Narrows down the pull-off of a step that let go, from the state that the step `step` left; `None`
