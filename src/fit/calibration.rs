@@ -77,7 +77,10 @@ impl Calibration {
 
 #[cfg(test)]
 mod tests {
+    use std::path::Path;
+
     use super::*;
+    use crate::fit::{ForceCurve, Freedom, Relaxation, Sample, fit_curve};
     use crate::theory::jkr;
     use crate::theory::tabor_map::Sphere;
 
@@ -99,5 +102,43 @@ mod tests {
         let [work_error, modulus_error] = Calibration::new(0.03, 0.04).relative_errors();
         approx::assert_relative_eq!(work_error, 0.05, max_relative = 1e-12);
         approx::assert_relative_eq!(modulus_error, 0.0427200187, max_relative = 1e-8);
+    }
+
+    /// The moduli of a solid that relaxes are as uncertain as the calibration, its time is not; what is not known stays so.
+    #[test]
+    fn a_solid_that_relaxes_has_the_errors_of_its_moduli() {
+        let samples = (0..20).map(|i| {
+            let approach = 1e-7 * (f64::from(i) / 19.0 - 0.3);
+            Sample {
+                approach,
+                force: 4.0 / 3.0 * 1e6 * 1e-3 * approach.max(0.0).powf(1.5),
+            }
+        });
+        let curve = ForceCurve {
+            samples: samples.collect(),
+            ..ForceCurve::default()
+        };
+        let freedom = Freedom {
+            approach_offset: false,
+            force_offset: false,
+            baseline_slope: false,
+            range: None,
+        };
+        let mut result = fit_curve(&curve, Path::new("made"), 1e-6, freedom).unwrap();
+        result.relaxation = Some(Relaxation {
+            relaxed_modulus: (1e6, 3e4),
+            instantaneous_modulus: (f64::NAN, f64::NAN),
+            time: (0.1, 0.01),
+            noise: 0.0,
+            points: 0,
+        });
+        let calibration = Calibration::new(0.05, 0.1);
+        calibration.widen(&mut result);
+        let [_, modulus] = calibration.relative_errors();
+        let solid = result.relaxation.unwrap();
+        let relaxed = (1e6, 3e4_f64.hypot(modulus * 1e6));
+        assert_eq!(solid.relaxed_modulus, relaxed);
+        assert!(solid.instantaneous_modulus.1.is_nan());
+        assert_eq!(solid.time, (0.1, 0.01));
     }
 }

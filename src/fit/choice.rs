@@ -437,7 +437,3 @@ fn tabor_of(radius: f64, fit: &ModelFit, range: Option<f64>) -> Option<f64> {
     let range = range? * Law::LennardJones.peak_tension();
     tabor_parameter(&sphere.ok()?, range).ok()
 }
-
-#[cfg(test)]
-#[path = "choice_tests.rs"]
-mod tests;

@@ -99,6 +99,3 @@ impl Film {
         })
     }
 }
-
-#[cfg(test)]
-mod tests;

@@ -4,7 +4,15 @@ mod advice;
 mod checks;
 mod dmt_study;
 mod fit;
+mod fit_choice;
+mod fit_curves;
+mod fit_inversion;
 mod fit_light;
 mod fit_relaxation;
+mod fit_scatter;
+mod fit_signs;
+mod fit_slope;
+mod flow;
+mod lennard_jones_sphere;
 #[path = "../shared/mod.rs"]
 mod shared;

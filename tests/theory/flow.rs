@@ -1,11 +1,13 @@
 //! Flows that are known: closed forms, and a dense solution.
 
-use nalgebra::{DMatrix, DVector};
-
 use std::sync::Arc;
 
-use super::*;
-use crate::backend::ranks::ThreadRanks;
+use nalgebra::{DMatrix, DVector};
+use tabor::backend::ranks::ThreadRanks;
+use tabor::backend::{Shape, Share};
+use tabor::flow::{Film, Flow};
+use tabor::grid::{Boundary, Grid};
+use tabor::scene::Axis;
 
 const TOLERANCE: f64 = 1e-10;
 const MOST: usize = 500;
@@ -431,8 +433,8 @@ fn critical_gap(gap: &[f64], film: Film) -> f64 {
         // Of each point the cell in which it was first reached, from one point at a time.
         (0..gap.len()).any(|begin| {
             let along = |point: usize| match film.axis {
-                Axis::X => (point as i64 % nx, nx),
                 Axis::Y => (point as i64 / nx, ny),
+                _ => (point as i64 % nx, nx),
             };
             if gap[begin] < least || !repeats && along(begin).0 != 0 {
                 return false;
@@ -450,8 +452,8 @@ fn critical_gap(gap: &[f64], film: Film) -> f64 {
                 for (dx, dy) in [(1, 0), (-1, 0), (0, 1), (0, -1)] {
                     let (tx, ty) = (x + dx, y + dy);
                     let crossed = match film.axis {
-                        Axis::X => tx.div_euclid(nx),
                         Axis::Y => ty.div_euclid(ny),
+                        _ => tx.div_euclid(nx),
                     };
                     let leaves = tx.div_euclid(nx) != 0 || ty.div_euclid(ny) != 0;
                     let to = (ty.rem_euclid(ny) * nx + tx.rem_euclid(nx)) as usize;

@@ -1,8 +1,10 @@
 //! Which model a curve is given, and what is said of it.
 
-use super::*;
-use crate::fit::curve_file::Sample;
-use crate::fit::test_noise::normal;
+use std::path::Path;
+
+use tabor::fit::{FitError, FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
+
+use crate::fit_curves::normal;
 
 const RADIUS: f64 = 1e-6;
 const AT_ZERO: Freedom = Freedom {
