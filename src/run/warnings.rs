@@ -8,9 +8,6 @@ use crate::units::format_si;
 /// Forces that differ by this share of the greatest are one.
 const ROUNDING: f64 = 1e-9;
 
-/// Share of a tension that a curve shows.
-const SHOWN: f64 = 0.01;
-
 /// Warnings of a path that ended: steps that rounding ended, and a pull-off that is not known.
 pub(super) fn warnings_at_end(
     setup: &Setup,
@@ -117,14 +114,6 @@ pub(super) fn is_loose(loading: &LoadingScene, [lower, upper]: [f64; 2], greates
         && upper - lower > (loading.pull_off_tolerance + ROUNDING) * upper
 }
 
-/// The step of the greatest tension, if that is more than the `passed` one of the way out (N) by what a curve shows.
-fn more_on_the_way_in(rows: &[StepRow], passed: f64) -> Option<&StepRow> {
-    let solved = rows.iter().take_while(|row| row.converged);
-    solved
-        .filter(|row| -row.force > (1.0 + SHOWN) * passed)
-        .min_by(|a, b| a.force.total_cmp(&b.force))
-}
-
 /// Whether a step is further apart than the step `held` was, under a lesser tension.
 fn lets_go_later(loading: &LoadingScene, rows: &[StepRow], held: usize) -> bool {
     let (before, later) = rows.split_at(held);
@@ -142,16 +131,6 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
     let greatest = greatest_force(&end.rows);
     let tension = Tension::at_end(loading, end);
-    if let Tension::Passed { force, .. } = tension
-        && let Some(more) = more_on_the_way_in(&end.rows, force)
-    {
-        return Some(format!(
-            "the surfaces attracted each other by {} in step {}, on the way in, and by {} at most on the way out: pull-off is at least the first of these; take shorter steps out",
-            newtons(-more.force),
-            more.step,
-            newtons(force)
-        ));
-    }
     match tension {
         Tension::Passed { step, force } if tension.is_cut_off(loading, &end.rows) => Some(format!(
             "the path turns back at its greatest tension, {} in step {step}, or begins there: the surfaces were not pressed beyond it, and pull-off may be greater; press further",

@@ -130,7 +130,8 @@ pub(super) fn parse(text: &str) -> Result<Table, (Option<usize>, SceneError)> {
     }))
 }
 
-/// Parses one value given on the command line: TOML, or else a bare word as it stands.
+/// Parses one value given on the command line: TOML, or else a number that TOML writes otherwise or has no room for, such as `.5`, or
+/// else a bare word as it stands.
 ///
 /// # Errors
 /// A list, a table or a quotation that is not closed.
@@ -139,7 +140,10 @@ pub(super) fn parse_set(text: &str) -> Result<Node, SceneError> {
         Ok(found) => Ok(value(&found, Location::Set, &|_| Location::Set)),
         Err(error) if text.trim_start().starts_with(['[', '{', '"', '\'']) => Err(syntax(&error)),
         Err(_) => Ok(Node {
-            value: Value::Text(text.trim().into()),
+            value: match text.trim().parse() {
+                Ok(number) => Value::Float(number),
+                Err(_) => Value::Text(text.trim().into()),
+            },
             place: Location::Set,
         }),
     }
@@ -273,10 +277,13 @@ mod tests {
         assert_eq!(text("25 um"), "25 um");
         assert_eq!(text("'25 um'"), "25 um");
         assert_eq!(text("1\nb = 2"), "1\nb = 2");
-        assert!(matches!(
-            parse_set("1e3").map(|node| node.value),
-            Ok(Value::Float(_))
-        ));
+        for number in ["1e3", "9223372036854775808", ".5", "1."] {
+            let read = parse_set(number).map(|node| node.value);
+            assert!(
+                matches!(read, Ok(Value::Float(read)) if Ok(read) == number.parse()),
+                "{number}"
+            );
+        }
         assert!(parse_set("[1, 2").is_err());
     }
 }

@@ -16,6 +16,9 @@ use crate::scene::{Control, LoadingScene};
 /// Positions that differ by less than this share of a path's span are one: rounding in single precision leaves as much.
 const STILL: f64 = 1e-6;
 
+/// Share of a tension that a curve shows.
+const SHOWN: f64 = 0.01;
+
 /// Loads tried for one pull-off at most. Halving gains a thousand in ten, and the least tolerance is 1e-6.
 const MOST_TRIALS: usize = 60;
 
@@ -66,8 +69,8 @@ pub enum Tension {
 impl Tension {
     /// Of the end of a path.
     ///
-    /// Under a prescribed position pull-off is the greatest tension from which the surfaces part further. The tension on the way
-    /// in does not count, and one at which the path ends or turns back has only held. What surfaces apart still attract each other by, the tail of
+    /// Under a prescribed position pull-off is the greatest tension from which the surfaces part further. One at which the path ends or
+    /// turns back has only held, and so has a greater one on the way in: the steps out passed over pull-off. What surfaces apart still attract each other by, the tail of
     /// a law without an end, is no pull-off.
     pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
         let solved = end.rows.iter().take_while(|row| row.converged).count();
@@ -97,6 +100,7 @@ impl Tension {
         if ways.is_some()
             && let Some((step, force)) = greatest(Some(Way::Out))
             && greatest(Some(Way::Held)).is_none_or(|(_, held)| held <= force)
+            && held <= (1.0 + SHOWN) * force
         {
             return Tension::Passed { step, force };
         }

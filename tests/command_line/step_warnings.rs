@@ -226,14 +226,9 @@ output = {{ images = [] }}
 }
 
 /// A sphere held in contact by 21.49 uN at an approach of 0 (JKR's pull-off is 23.6 uN) is carried beyond reach in one step. The tail of an exponential law of
-/// 4e-26 N was its pull-off there, and one of 65 fN nearer by, without a word.
+/// 4e-26 N was its pull-off there, and one of 65 fN nearer by.
 fn the_tail_of_a_law_is_no_pull_off() {
-    let ends = [
-        (&[-12e-6][..], "and let go later at a lesser one"),
-        (&[-5e-6], "and let go later at a lesser one"),
-        (&[-5e-6, -12e-6], "on the way in, and by 64.7"),
-    ];
-    for (out, words) in ends {
+    for out in [&[-12e-6][..], &[-5e-6], &[-5e-6, -12e-6]] {
         let path = [&[0.0, 3e-6], out].concat();
         let folder = scene(&format!(
             r#"
@@ -249,9 +244,9 @@ output = {{ images = [] }}
         let said = errors(&output);
         assert_eq!(status(&output), 0, "{said}");
         assert!(said.contains("21.49 µN in step 1"), "{said}");
-        assert!(said.contains(words), "{said}");
+        assert!(said.contains("and let go later at a lesser one"), "{said}");
         let pull_off = &summary(&folder.path().join("out"))["pull_off_force"];
-        assert_eq!(pull_off.is_null(), out.len() == 1, "{pull_off}");
+        assert!(pull_off.is_null(), "{pull_off}");
     }
 }
 
