@@ -44,10 +44,11 @@ pub(crate) struct Attempt<'a> {
 }
 
 /// Whether surfaces that are pressed together are found apart: the pressures of the state that the solve began from were so much larger that
-/// their rounding hid the load.
+/// their rounding hid the load. A spring presses less the further they are apart.
 fn is_unborne(load: &Load, solved: &SolvedStep) -> bool {
     let is_apart = |found: &Evaluation| found.state == State::Separated;
-    let is_pressed = matches!(load.hold, Hold::Pressure(pressure) if pressure > 0.0);
+    let is_pressed = matches!(load.hold, Hold::Pressure(pressure) if pressure > 0.0)
+        && load.zero_stiffness == 0.0;
     is_pressed && solved.evaluation.as_ref().is_some_and(is_apart)
 }
 

@@ -15,7 +15,7 @@ use crate::catalogue::variants;
 use crate::shared::device::{
     backend, device, device_with_double, device_without_double, double_backend, relative_difference,
 };
-use crate::shared::trials::tests;
+use crate::shared::trials::{is_long, tests};
 use crate::watching::Watching;
 
 struct Solution {
@@ -403,17 +403,23 @@ fn mixed_precision_on_the_processor_reaches_the_tolerance_of_double() {
     println!("worst residual {worst:.1e}");
 }
 
+/// All laws on one boundary, and on the other those whose pad differs most: every pair of a law and a boundary is a shader of its own, which
+/// software compiles slowly. `TABOR_LONG=1` takes all pairs.
+fn few_contacts() -> Vec<(String, Problem, Load)> {
+    let mut contacts = contacts(32);
+    contacts.retain(|(name, ..)| {
+        let free = name.contains("free");
+        let differs = name.starts_with("exponential") || name.starts_with("Lennard-Jones");
+        is_long() || !free || differs
+    });
+    contacts
+}
+
 fn mixed_precision_on_the_device_reaches_the_tolerance_of_double() {
     let device = device();
     let mixed = || -> Box<dyn Backend + Send> { Box::new(backend(device).corrected()) };
     let mut worst = 0.0f64;
-    // Every pair of a law and a boundary is a shader of its own, which software compiles slowly: all
-    // laws on one boundary, and on the other those whose pad differs most.
-    let few = contacts(32).into_iter().filter(|(name, ..)| {
-        let free = name.contains("free");
-        !free || name.starts_with("exponential") || name.starts_with("Lennard-Jones")
-    });
-    for (name, problem, load) in few {
+    for (name, problem, load) in few_contacts() {
         worst = worst.max(tight(&name, &problem, &load, &mixed));
     }
     println!("worst residual {worst:.1e}");
@@ -430,7 +436,7 @@ fn double_precision_on_the_device_solves_as_the_processor_does() {
     let flowing =
         Problem::new(grid, Boundary::Periodic, 1.0, heights, 1.0, laws()[2].1).with_hardness(0.3);
     let held = at_gap(&flowing, 0.02);
-    let mut all = contacts(32);
+    let mut all = few_contacts();
     all.push(("hardness, gap".to_owned(), flowing, held));
     for (name, problem, load) in all {
         let reference = solve(&problem, &load, &Start::Cold, TIGHT, &cpu);
