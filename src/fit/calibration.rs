@@ -118,13 +118,7 @@ mod tests {
             samples: samples.collect(),
             ..ForceCurve::default()
         };
-        let freedom = Freedom {
-            approach_offset: false,
-            force_offset: false,
-            baseline_slope: false,
-            range: None,
-        };
-        let mut result = fit_curve(&curve, Path::new("made"), 1e-6, freedom).unwrap();
+        let mut result = fit_curve(&curve, Path::new("made"), 1e-6, Freedom::default()).unwrap();
         result.relaxation = Some(Relaxation {
             relaxed_modulus: (1e6, 3e4),
             instantaneous_modulus: (f64::NAN, f64::NAN),

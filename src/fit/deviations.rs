@@ -220,13 +220,7 @@ mod tests {
             samples: (0..80).map(sample).collect(),
             ..ForceCurve::default()
         };
-        let freedom = Freedom {
-            approach_offset: false,
-            force_offset: false,
-            baseline_slope: false,
-            range: None,
-        };
-        let result = fit_curve(&curve, Path::new("mixed"), 1e-5, freedom).unwrap();
+        let result = fit_curve(&curve, Path::new("mixed"), 1e-5, Freedom::default()).unwrap();
         assert!(!result.describes_curve);
         let is_said = |warning: &String| warning.contains("seem to be mixed");
         assert!(result.warnings.iter().any(is_said), "{:?}", result.warnings);

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tabor::fit::{FitError, FitResult, ForceCurve, Freedom, Model, Sample, fit_curve};
 
-use crate::fit_curves::normal;
+use crate::test_noise::normal;
 
 const RADIUS: f64 = 1e-6;
 const AT_ZERO: Freedom = Freedom {

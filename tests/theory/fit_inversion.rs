@@ -8,7 +8,7 @@ use tabor::fit::{
 use tabor::theory::jkr;
 use tabor::theory::tabor_map::Sphere;
 
-use crate::fit_curves::normal;
+use crate::test_noise::normal;
 
 const RADIUS: f64 = 10e-6;
 const SPAN: f64 = 3e-6;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tabor::fit::{FitResult, ForceCurve, Freedom, Sample, fit_curve};
 
-use crate::fit_curves::normal;
+use crate::test_noise::normal;
 
 const RADIUS: f64 = 5e-6;
 const DEPTH: f64 = 0.5e-6;

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use tabor::fit::{FitError, FitRequest, FitResult, ForceCurve, Indenter, Sample};
 
-use crate::fit_curves::normal;
+use crate::test_noise::normal;
 
 const RADIUS: f64 = 5e-6;
 const POINTS: u32 = 240;

@@ -6,7 +6,7 @@ use tabor::fit::{FitError, ForceCurve, Freedom, Model, Sample, fit_curve};
 use tabor::theory::jkr;
 use tabor::theory::tabor_map::Sphere;
 
-use crate::fit_curves::normal;
+use crate::test_noise::normal;
 
 const ALL_FREE: Freedom = Freedom {
     approach_offset: true,

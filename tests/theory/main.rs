@@ -5,7 +5,6 @@ mod checks;
 mod dmt_study;
 mod fit;
 mod fit_choice;
-mod fit_curves;
 mod fit_inversion;
 mod fit_light;
 mod fit_relaxation;
@@ -16,3 +15,5 @@ mod flow;
 mod lennard_jones_sphere;
 #[path = "../shared/mod.rs"]
 mod shared;
+#[path = "../../src/fit/test_noise.rs"]
+mod test_noise;
