@@ -12,7 +12,7 @@ use crate::convolution::convolve;
 use crate::kernels::{Case, FINE, Trace, compare, params, run};
 use crate::shared::device::{backend, device, device_with};
 use crate::shared::random::Random;
-use crate::shared::trials::tests;
+use crate::shared::trials::{is_long, tests};
 
 /// A device whose shaders are written out, whatever its driver.
 fn unrolled() -> GpuDevice {
@@ -79,22 +79,25 @@ fn kernels_written_out_agree_with_their_twins_and_with_loops() {
     }
 }
 
-/// Radices and threads for which some threads are idle.
+/// Radices and threads for which some threads are idle; lines whose values are spread over the banks of workgroup memory; and, with
+/// `TABOR_LONG=1`, such a line in rounds, which software compiles for ten seconds.
 fn a_convolution_written_out_is_that_with_loops() {
-    let size = [120, 84];
-    let fields = [1, 2].map(|seed| Random(seed).singles(size[0] * size[1]));
     let unrolled = unrolled();
-    let [out, loops] = [&unrolled, device()].map(|device| {
-        convolve(
-            &mut backend(device),
-            size,
-            Some(Response::Stiffness),
-            &fields,
-        )
-        .unwrap_or_else(|error| panic!("{error}"))
-    });
-    assert!(out.0 == loops.0 && out.1 == loops.1, "bits differ");
-    assert_eq!(out.2.curvature, loops.2.curvature);
+    let rounds = is_long().then_some([8192, 4]);
+    for size in [[120, 84], [128, 64]].into_iter().chain(rounds) {
+        let fields = [1, 2].map(|seed| Random(seed).singles(size[0] * size[1]));
+        let [out, loops] = [&unrolled, device()].map(|device| {
+            convolve(
+                &mut backend(device),
+                size,
+                Some(Response::Stiffness),
+                &fields,
+            )
+            .unwrap_or_else(|error| panic!("{error}"))
+        });
+        assert!(out.0 == loops.0 && out.1 == loops.1, "bits differ");
+        assert_eq!(out.2.curvature, loops.2.curvature);
+    }
 }
 
 tests![

@@ -11,7 +11,7 @@
 use std::fmt::Write;
 
 use super::butterfly::{Direction, butterfly};
-use super::plan::{Exchange, LinePlan, Stage};
+use super::plan::{BANKS, Exchange, LinePlan, Stage};
 
 /// Writes the transforms of one line length.
 pub struct LineWriter<'a> {
@@ -22,6 +22,14 @@ pub struct LineWriter<'a> {
     occupied: bool,
     /// The WGSL written so far.
     pub source: String,
+}
+
+/// The place in workgroup memory of a place in a line.
+fn banked(plan: &LinePlan, place: &str) -> String {
+    match plan.spreads() {
+        true => format!("bank({place})"),
+        false => format!("({place})"),
+    }
 }
 
 /// A thread's butterfly at one stage.
@@ -83,11 +91,21 @@ impl<'a> LineWriter<'a> {
             Exchange::Whole => "vec2<real>",
             Exchange::Split | Exchange::Rounds(_) => "real",
         };
-        format!(
+        let mut text = format!(
             "var<workgroup> exchange: array<{kind}, {}>;\nconst LINES: u32 = {}u;\n",
             plan.exchange.places(plan.length) * plan.lines,
             plan.lines,
-        )
+        );
+        if plan.spreads() {
+            // Within a block of places, the lower digits of each are changed by higher ones of its own. All keep different
+            // places, since each digit depends on higher ones alone.
+            let _ = writeln!(
+                text,
+                "fn bank(place: u32) -> u32 {{ return place ^ ((place >> 3u) & {}u); }}",
+                BANKS - 1
+            );
+        }
+        text
     }
 
     /// The workgroup's size along x and y.
@@ -167,10 +185,12 @@ impl<'a> LineWriter<'a> {
 
     /// Moves the real or imaginary parts from their places after a stage to those before the next.
     fn pass(&mut self, radix: usize, before: usize, next: usize, part: &str) {
-        let (length, lines, interleaved) = (self.plan.length, self.plan.lines, self.interleaved);
+        let (plan, interleaved) = (self.plan, self.interleaved);
+        let (length, lines) = (plan.length, plan.lines);
         let address = move |place: &str| {
+            let place = banked(plan, place);
             if interleaved {
-                format!("exchange[({place}) * {lines}u + line]")
+                format!("exchange[{place} * {lines}u + line]")
             } else {
                 format!("exchange[line * {length}u + {place}]")
             }
@@ -210,6 +230,7 @@ impl<'a> LineWriter<'a> {
         rounds: usize,
     ) {
         let places = self.plan.exchange.places(self.plan.length);
+        let slot = banked(self.plan, &format!("place % {places}u"));
         for round in 0..rounds {
             if self.occupied {
                 self.source.push_str("workgroupBarrier();\n");
@@ -223,7 +244,7 @@ impl<'a> LineWriter<'a> {
                 for leg in 0..radix {
                     let _ = writeln!(
                         source,
-                        "{{ let place = start + {}u; if (place / {places}u == {round}u) {{ exchange[place % {places}u] = {}{part}; }} }}",
+                        "{{ let place = start + {}u; if (place / {places}u == {round}u) {{ exchange[{slot}] = {}{part}; }} }}",
                         leg * before,
                         each.name(leg)
                     );
@@ -234,7 +255,7 @@ impl<'a> LineWriter<'a> {
                 for leg in 0..next {
                     let _ = writeln!(
                         source,
-                        "{{ let place = {}; if (place / {places}u == {round}u) {{ w{} = exchange[place % {places}u]; }} }}",
+                        "{{ let place = {}; if (place / {places}u == {round}u) {{ w{} = exchange[{slot}]; }} }}",
                         each.position(leg),
                         each.value(leg)
                     );

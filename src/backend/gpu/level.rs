@@ -72,7 +72,16 @@ impl LevelPlan {
 
     /// The same with other shaders.
     pub fn with_loops(self, loops: Loops) -> Self {
-        LevelPlan { loops, ..self }
+        let spread = loops == Loops::Unrolled;
+        let with = |line: LinePlan| LinePlan { spread, ..line };
+        LevelPlan {
+            rows: with(self.rows),
+            rows_then: self.rows_then.map(with),
+            columns: with(self.columns),
+            columns_then: self.columns_then.map(with),
+            loops,
+            ..self
+        }
     }
 
     /// Number of points.

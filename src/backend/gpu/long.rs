@@ -76,8 +76,11 @@ impl LevelPlan {
         let column_counts = |first, then| [then, first];
         let (rows, rows_then) =
             plans(nx, pairs, row_counts, limits, number, longest).ok_or_else(refused)?;
-        let (columns, columns_then) =
+        let (mut columns, columns_then) =
             plans(ny, nx / 2 + 1, column_counts, limits, number, longest).ok_or_else(refused)?;
+        if columns_then.is_none() {
+            columns = LinePlan::in_one_piece(ny, nx / 2 + 1, limits, number).ok_or_else(refused)?;
+        }
         Ok(LevelPlan {
             number,
             shape: shape.points,

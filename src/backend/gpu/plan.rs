@@ -28,6 +28,8 @@ const ENOUGH_THREADS: usize = 128;
 const MOST_LINES: usize = 4;
 /// Bytes of workgroup memory that one thread's share of a sum takes.
 const SUM_BYTES: usize = 8;
+/// Banks of workgroup memory: neighbouring threads that reach for the same one at a time wait for one another.
+pub const BANKS: usize = 32;
 
 /// How values pass from one butterfly to the next through workgroup memory.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -39,6 +41,14 @@ pub enum Exchange {
     /// The same, each in so many rounds, for a part of the line at a time.
     Rounds(usize),
 }
+
+/// Ways to pass values, the one that takes the fewest barriers first.
+const WAYS: [Exchange; 4] = [
+    Exchange::Whole,
+    Exchange::Split,
+    Exchange::Rounds(2),
+    Exchange::Rounds(4),
+];
 
 impl Exchange {
     /// Numbers of a line that are in workgroup memory at a time.
@@ -79,6 +89,9 @@ pub struct LinePlan {
     pub whole: usize,
     /// Where the roots of its stages begin in the table of roots.
     pub roots_at: usize,
+    /// Whether its shaders spread values over the banks of workgroup memory: a butterfly of eight gives them to places eight
+    /// apart, which few banks hold. A software driver has no banks.
+    pub spread: bool,
 }
 
 /// A stage of a transform.
@@ -173,8 +186,35 @@ impl LinePlan {
         Self::part(length, length, count, limits, number).filter(|_| length.is_multiple_of(2))
     }
 
+    /// The same for lines that each lie in one piece: several in a workgroup would spare no reading, and wait for one
+    /// another. Real and imaginary parts pass in turn, which is faster from 2048 points on and no slower below.
+    pub fn in_one_piece(
+        length: usize,
+        count: usize,
+        limits: GroupLimits,
+        number: Number,
+    ) -> Option<Self> {
+        let plan = LinePlan::new(length, count, limits, number)?;
+        match plan.threads >= ENOUGH_THREADS {
+            true => Self::passing(&WAYS[1..], length, length, 1, limits, number),
+            false => Some(plan),
+        }
+    }
+
     /// The plan of parts of a line of `whole` points; these may be odd.
     pub fn part(
+        length: usize,
+        whole: usize,
+        count: usize,
+        limits: GroupLimits,
+        number: Number,
+    ) -> Option<Self> {
+        Self::passing(&WAYS, length, whole, count, limits, number)
+    }
+
+    /// The same where values pass in one of these ways.
+    fn passing(
+        ways: &[Exchange],
         length: usize,
         whole: usize,
         count: usize,
@@ -205,19 +245,14 @@ impl LinePlan {
             .unwrap_or(1);
         let mut lines = wanted;
         // Rounds cost barriers; one line at a time wastes half of what memory hands out at once.
-        let ways: &[Exchange] = &[
-            Exchange::Whole,
-            Exchange::Split,
-            Exchange::Rounds(2),
-            Exchange::Rounds(4),
-        ];
         let exchange = loop {
-            let ways = match lines {
-                1 => ways,
-                2..=MOST_LINES => &ways[..2],
-                _ => &ways[..1],
+            let pays = |exchange: Exchange| match exchange {
+                Exchange::Whole => true,
+                Exchange::Split => lines <= MOST_LINES,
+                Exchange::Rounds(_) => lines == 1,
             };
-            if let Some(&exchange) = ways.iter().find(|&&exchange| fits(lines, exchange)) {
+            let mut ways = ways.iter().filter(|&&exchange| pays(exchange));
+            if let Some(&exchange) = ways.find(|&&exchange| fits(lines, exchange)) {
                 break exchange;
             }
             if lines == 1 {
@@ -236,6 +271,7 @@ impl LinePlan {
             threads,
             lines,
             exchange,
+            spread: true,
         })
     }
 
@@ -281,6 +317,11 @@ impl LinePlan {
     pub fn roots_end(&self) -> usize {
         let last = self.stages(Direction::Inverse).pop();
         last.map_or(self.roots_at, |stage| stage.roots_at + stage.roots())
+    }
+
+    /// Whether places are spread: blocks of as many as there are banks, which the places of a line must fill.
+    pub fn spreads(&self) -> bool {
+        self.spread && self.exchange.places(self.length).is_multiple_of(BANKS)
     }
 
     /// Threads in a workgroup.

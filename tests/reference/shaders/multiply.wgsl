@@ -105,19 +105,19 @@ v3 = even_difference - turned;
 }
 { let j = thread + 0u;
 let start = (j / 1u) * 4u + j % 1u;
-exchange[line * 8u + start + 0u] = v0;
-exchange[line * 8u + start + 1u] = v1;
-exchange[line * 8u + start + 2u] = v2;
-exchange[line * 8u + start + 3u] = v3;
+exchange[line * 8u + (start + 0u)] = v0;
+exchange[line * 8u + (start + 1u)] = v1;
+exchange[line * 8u + (start + 2u)] = v2;
+exchange[line * 8u + (start + 3u)] = v3;
 }
 workgroupBarrier();
 { let j = thread + 0u;
-v0 = exchange[line * 8u + (j + 0u)];
-v1 = exchange[line * 8u + (j + 4u)];
+v0 = exchange[line * 8u + ((j + 0u))];
+v1 = exchange[line * 8u + ((j + 4u))];
 }
 { let j = thread + 2u;
-v2 = exchange[line * 8u + (j + 0u)];
-v3 = exchange[line * 8u + (j + 4u)];
+v2 = exchange[line * 8u + ((j + 0u))];
+v3 = exchange[line * 8u + ((j + 4u))];
 }
 { let j = thread + 0u;
 let root = j % 4u;
@@ -177,20 +177,20 @@ v2 = sum;
 workgroupBarrier();
 { let j = thread + 0u;
 let start = (j / 1u) * 2u + j % 1u;
-exchange[line * 8u + start + 0u] = v0;
-exchange[line * 8u + start + 1u] = v1;
+exchange[line * 8u + (start + 0u)] = v0;
+exchange[line * 8u + (start + 1u)] = v1;
 }
 { let j = thread + 2u;
 let start = (j / 1u) * 2u + j % 1u;
-exchange[line * 8u + start + 0u] = v2;
-exchange[line * 8u + start + 1u] = v3;
+exchange[line * 8u + (start + 0u)] = v2;
+exchange[line * 8u + (start + 1u)] = v3;
 }
 workgroupBarrier();
 { let j = thread + 0u;
-v0 = exchange[line * 8u + (j + 0u)];
-v1 = exchange[line * 8u + (j + 2u)];
-v2 = exchange[line * 8u + (j + 4u)];
-v3 = exchange[line * 8u + (j + 6u)];
+v0 = exchange[line * 8u + ((j + 0u))];
+v1 = exchange[line * 8u + ((j + 2u))];
+v2 = exchange[line * 8u + ((j + 4u))];
+v3 = exchange[line * 8u + ((j + 6u))];
 }
 { let j = thread + 0u;
 let root = j % 2u;
