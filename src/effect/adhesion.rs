@@ -12,6 +12,8 @@ use crate::units::format_si;
 const SHARP_LIMIT: f64 = 0.02;
 const TAPERED_LIMIT: f64 = 0.65;
 const CORE_LIMIT: f64 = 0.64;
+/// Rounding of chi: the automatic ranges of Lennard-Jones and of a law that ends sharply lie at their limits.
+const ROUNDING: f64 = 1e-9;
 /// Values above which the error of pull-off is 10 % or more: for the sharp law, and for every other.
 const SHARP_LOST: f64 = 0.1;
 const LOST: f64 = 1.3;
@@ -152,14 +154,16 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
         Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LOST => Some(format!(
             "{beyond}: {measured}: the sharp law traps the contact edge, pull-off comes out about 14 % too high at 0.16 and 44 % at 0.65; leave taper at \"auto\", or {remedy}"
         )),
-        Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LIMIT => Some(format!(
-            "{measured}: beyond {SHARP_LIMIT} the sharp law traps the contact edge, pull-off {} too high; leave taper at \"auto\", or {remedy}",
-            if chi >= 0.04 {
-                "3 to 10 %"
-            } else {
-                "about 2 %"
-            }
-        )),
+        Law::MaugisDugdale(law) if law.taper == 0.0 && chi > SHARP_LIMIT * (1.0 + ROUNDING) => {
+            Some(format!(
+                "{measured}: beyond {SHARP_LIMIT} the sharp law traps the contact edge, pull-off {} too high; leave taper at \"auto\", or {remedy}",
+                if chi >= 0.04 {
+                    "3 to 10 %"
+                } else {
+                    "about 2 %"
+                }
+            ))
+        }
         Law::MaugisDugdale(law) if law.taper > 0.0 && chi > LOST => Some(format!(
             "{beyond}: {measured}: beyond {LOST} the taper no longer frees the contact edge, pull-off is about 30 % too high at 2.6 where the contact is wide, and 50 to 90 % where it is 10 pixels; at 1.3 it is 11 % where the edge lies straight along the grid; {remedy}"
         )),
@@ -172,7 +176,7 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
         Law::LennardJones(_) if chi > LOST => Some(format!(
             "{beyond}: {measured}: beyond {LOST} the contact edge is trapped between pixels, pull-off is about 40 % too high at 2.5; {remedy}"
         )),
-        Law::LennardJones(_) if chi > CORE_LIMIT => Some(format!(
+        Law::LennardJones(_) if chi > CORE_LIMIT * (1.0 + ROUNDING) => Some(format!(
             "{measured}: beyond {CORE_LIMIT} the contact edge is trapped between pixels and pull-off comes out too high, by more than 4 %; {remedy}"
         )),
         _ => None,

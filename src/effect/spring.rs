@@ -7,7 +7,7 @@ use crate::units::format_si;
 /// Stiffness over that of a punch as wide as the grid from which on a spring gives nothing that its contact would show, and
 /// on a periodic grid, whose mean displacement meets no other resistance, a step takes three to ten times the iterations.
 /// At a million times some steps do not converge.
-const RIGID: f64 = 1e3;
+const RIGID: f64 = 2e3;
 
 /// A spring between the prescribed approach and the body.
 pub(super) struct Spring;
@@ -61,8 +61,9 @@ impl Hooks for Spring {
     }
 }
 
-/// Stiffness of the spring over that of a punch as wide as the grid.
+/// Stiffness of the spring over that of a punch as wide as the grid, `2 E* a` of a round one with the radius a (Johnson 1985, sec. 3.4).
 fn relative_stiffness(plan: &Plan) -> f64 {
     let stiffness = plan.scene.loading.spring.unwrap_or(0.0);
-    stiffness / (2.0 * plan.scene.solid.contact_modulus * plan.outline.grid.area().sqrt())
+    let radius = 0.5 * plan.outline.grid.area().sqrt();
+    stiffness / (2.0 * plan.scene.solid.contact_modulus * radius)
 }

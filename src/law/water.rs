@@ -3,6 +3,10 @@
 /// Critical temperature of water, K, above which there is no liquid.
 pub const CRITICAL_TEMPERATURE: f64 = 647.096;
 
+/// Least temperature, K, to which the surface tension of supercooled water is known (IAPWS R1-76(2014)): 25 K below freezing. The
+/// density by SR1-86 is within 1e-4 of measured ones there, and wrong further down.
+pub const LEAST_TEMPERATURE: f64 = 248.15;
+
 /// Molar mass of water, kg/mol.
 const MOLAR_MASS: f64 = 18.015_268e-3;
 /// Critical density of water, kg/m^3.

@@ -140,9 +140,18 @@ impl RunEnd {
     }
 }
 
-/// The scene as resolved, with the range and the taper that `"auto"` stands for.
+/// The scene as resolved, with the range and the taper that `"auto"` stands for, and the points and the size of a height file.
 fn resolved_scene(setup: &Setup) -> Value {
     let mut scene = setup.scene.resolved_json();
+    let grid = setup.surface.grid;
+    for (key, value) in [
+        ("points", json!([grid.nx, grid.ny])),
+        ("size", json!([grid.lx, grid.ly])),
+    ] {
+        if let Some(table) = scene["grid"].as_object_mut() {
+            table.entry(key).or_insert(value);
+        }
+    }
     for (key, length) in [("range", setup.law.range()), ("taper", setup.law.taper())] {
         match scene.pointer_mut(&format!("/adhesion/{key}")) {
             Some(value) if value == "auto" => *value = json!(length),

@@ -17,7 +17,10 @@ pub(super) fn warnings_at_end(
     let is_whole = Planned::after(setup, &end.rows).is_none()
         && end.rows.last().is_some_and(|row| row.converged);
     let pull_off = is_whole
-        .then(|| pull_off(&setup.scene.loading, end))
+        .then(|| {
+            let loading = &setup.scene.loading;
+            pull_off(loading, end).or_else(|| passed_over(setup, end))
+        })
         .flatten();
     rounding(setup, device, &end.rows)
         .into_iter()
@@ -124,6 +127,26 @@ fn lets_go_later(loading: &LoadingScene, rows: &[StepRow], held: usize) -> bool 
     };
     let mut later = later.iter();
     later.any(|row| row.state == State::Separated || is_further(row))
+}
+
+/// A warning of surfaces that attract, are pressed together in one step and apart in the next under a prescribed position, on a path
+/// without any tension.
+fn passed_over(setup: &Setup, end: &WalkEnd) -> Option<String> {
+    let loading = &setup.scene.loading;
+    let is_known = Tension::at_end(loading, end) != Tension::None;
+    if loading.control.is_load() || !setup.law.is_adhesive() || is_known {
+        return None;
+    }
+    let mut pairs = end.rows.windows(2);
+    let [pressed, apart] = pairs.find_map(|pair| match pair {
+        [pressed, apart] if pressed.state == State::Contact && apart.state == State::Separated => {
+            Some([pressed.step, apart.step])
+        }
+        _ => None,
+    })?;
+    Some(format!(
+        "the surfaces are pressed together in step {pressed} and apart in step {apart}: the path passed over their pull-off; take shorter steps between the two"
+    ))
 }
 
 /// A warning if the pull-off of a finished path is not known to the tolerance.

@@ -8,6 +8,9 @@ use super::words::words;
 use super::{GridValues, resolved};
 use crate::law::{Exponential, Law, LennardJones, MaugisDugdale};
 
+/// How much longer than with a taper the shortest range of a law that ends sharply is: chi is 0.02 then, and 0.5 with one.
+const SHARP: f64 = 5.0;
+
 /// `[adhesion]`.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
@@ -123,9 +126,10 @@ impl LawName {
     }
 
     /// The shortest range at which pull-off is still within some per cent of JKR's, over
-    /// `sqrt(w dx / E*)`.
-    pub(crate) fn shortest_range(self) -> f64 {
+    /// `sqrt(w dx / E*)`. A Maugis-Dugdale law that ends sharply, without a taper, needs 25 times the cohesive zone.
+    pub(crate) fn shortest_range(self, is_sharp: bool) -> f64 {
         match self {
+            LawName::MaugisDugdale if is_sharp => SHARP * 2f64.sqrt(),
             LawName::MaugisDugdale => 2f64.sqrt(),
             LawName::Exponential => 1.0,
             LawName::LennardJones => 1.25,

@@ -6,7 +6,7 @@ use super::allowed::{Allowed, in_range};
 use super::keys;
 use super::reader::Reader;
 use super::{AdhesionScene, CapillaryScene, LawName};
-use crate::law::water::{self, CRITICAL_TEMPERATURE};
+use crate::law::water::{self, CRITICAL_TEMPERATURE, LEAST_TEMPERATURE};
 use crate::law::{LEAST_KELVIN_RADIUS, Meniscus, least_humidity};
 use crate::units::Dimension;
 
@@ -64,6 +64,15 @@ pub(super) fn read(scene: &Reader) -> Option<Option<CapillaryScene>> {
             "temperature",
             format!(
                 "{temperature} K is above the critical point of water, {CRITICAL_TEMPERATURE} K: give surface_tension and molar_volume of the liquid"
+            ),
+        );
+        return None;
+    }
+    if let Some(temperature) = temperature.filter(|at| is_water && *at < LEAST_TEMPERATURE) {
+        capillary.conflict(
+            "temperature",
+            format!(
+                "{temperature} K is below {LEAST_TEMPERATURE} K, down to which supercooled water is known: was it meant in Celsius (25 degrees are 298.15 K)? Else give surface_tension and molar_volume of the liquid"
             ),
         );
         return None;

@@ -39,10 +39,18 @@ impl Conduction {
         let mut found = named;
         for (key, kind) in by_unit {
             if *found.get_or_insert(kind) != kind {
-                table.conflict(
-                    key,
-                    "heat and a current are not conducted together; give both conductivities in W/(m K), or both in S/m",
-                );
+                let what = match named {
+                    Some(Conduction::Thermal) => {
+                        "kind = \"thermal\" takes conductivities in W/(m K), and this one is in S/m; give kind = \"electrical\", or leave kind out"
+                    }
+                    Some(Conduction::Electrical) => {
+                        "kind = \"electrical\" takes conductivities in S/m, and this one is in W/(m K); give kind = \"thermal\", or leave kind out"
+                    }
+                    None => {
+                        "heat and a current are not conducted together; give both conductivities in W/(m K), or both in S/m"
+                    }
+                };
+                table.conflict(key, what);
                 return None;
             }
         }

@@ -46,7 +46,7 @@ pub struct Evaluation {
     pub contact: f64,
     /// Share of points attracted.
     pub attracted: f64,
-    /// Contact share less the pixel staircase, where a wall makes contact sharp.
+    /// Contact share less the pixel staircase, where a wall makes contact sharp; with a hardness at least what its pressures need.
     pub contact_corrected: Option<f64>,
     /// Elastic energy, J.
     pub elastic_energy: f64,
@@ -250,7 +250,13 @@ impl Evaluation {
         };
         let contact_corrected = if problem.law.has_wall() {
             let edges = perimeter_edges(&points, share, problem.boundary)?;
-            Some(contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count)
+            let corrected = contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count;
+            // No point carries more than the hardness: the area that the pressures need at least is no staircase.
+            let needed = problem.hardness.map_or(0.0, |hardness| {
+                let carried = share.surface_sum_by(&pressure, |pressure| pressure.max(0.0));
+                carried / (hardness * scales.pressure * count)
+            });
+            Some(corrected.max(needed.min(contact)))
         } else {
             None
         };

@@ -22,7 +22,10 @@ pub fn resolve_law(
     let resolved = (strongest * work * pixel / contact_modulus).sqrt();
     let range = match adhesion.range {
         Range::Length(range) => range,
-        Range::Auto => adhesion.law.shortest_range() * resolved,
+        Range::Auto => {
+            let is_sharp = adhesion.taper == Some(0.0) && adhesion.treatment == Treatment::Full;
+            adhesion.law.shortest_range(is_sharp) * resolved
+        }
     };
     // Attraction that does not deform the contact cannot pin its edge.
     let auto = match adhesion.treatment {

@@ -100,17 +100,32 @@ impl MapOutline {
 }
 
 /// Whether many points are level with the highest, as of flat pillars and punches, or with the lowest, as between
-/// pillars.
+/// pillars. Flats are wider than the crest of a ridge or a wave, whose one or two level points beside each other are many on
+/// a coarse grid: they hold a point whose neighbours are level as well.
 pub(crate) fn has_flats(heights: &[f64], share: &Share) -> bool {
     let (lowest, highest) = (share.least_of(heights), share.greatest_of(heights));
     let level = LEVEL * (highest - lowest);
+    let nx = share.surface()[0].max(1);
+    // Points that are level with an end, and those of them that have level neighbours.
     let near = |end: f64| {
-        let near = heights.iter().filter(|h| (**h - end).abs() <= level);
-        near.count()
+        let is_near = |i: usize| (heights[i] - end).abs() <= level;
+        let is_within = |i: usize, place: usize, count: usize, apart: usize| {
+            count < 3
+                || (place > 0 && place + 1 < count && is_near(i - apart) && is_near(i + apart))
+        };
+        let near = (0..heights.len()).filter(|&i| is_near(i));
+        near.fold([0, 0], |[near, within], i| {
+            let inner = is_within(i, i % nx, nx, 1) && is_within(i, i / nx, heights.len() / nx, nx);
+            [near + 1, within + usize::from(inner)]
+        })
     };
-    let [all, top, ground] = share.counts([heights.len(), near(highest), near(lowest)]);
+    let [[top, inner_top], [ground, inner_ground]] = [near(highest), near(lowest)];
+    let [all, top, inner_top, ground, inner_ground] =
+        share.counts([heights.len(), top, inner_top, ground, inner_ground]);
     let part = |count: usize| count as f64 / all as f64;
-    highest > lowest && (part(top) > TOP || part(ground) > GROUND)
+    let is_top = inner_top > 0 && part(top) > TOP;
+    let is_ground = inner_ground > 0 && part(ground) > GROUND;
+    highest > lowest && (is_top || is_ground)
 }
 
 /// Contribution of one part.
@@ -370,5 +385,28 @@ mod tests {
         let rough: Vec<f64> = (0..400).map(|i| f64::from((i * 37) % 211)).collect();
         assert!(!has_flats(&rough, &of(rough.len())));
         assert!(!has_flats(&[1.0; 9], &of(9)));
+    }
+
+    /// On few points the crest of a smooth surface holds many of them.
+    #[test]
+    fn crests_are_no_flats() {
+        let [nx, ny] = [16, 8];
+        let share = whole(&Grid::new([nx, ny], [2.0, 1.0]));
+        let of = |height: &dyn Fn(f64, f64) -> f64| -> bool {
+            let points = (0..nx * ny).map(|i| height((i % nx) as f64, (i / nx) as f64));
+            has_flats(&points.collect::<Vec<f64>>(), &share)
+        };
+        let wave = |place: f64| (PI * place / 4.0).cos();
+        assert!(!of(&|x, _| wave(x)));
+        // A crest between two points.
+        assert!(!of(&|x, _| wave(x + 0.5)));
+        assert!(!of(&|_, y| wave(y)));
+        assert!(!of(&|x, y| wave(x) + wave(y)));
+        assert!(!of(&|x, y| wave(x + 0.5) + wave(y + 0.5)));
+        // A pillar of three by three points, and a wall.
+        assert!(of(&|x, y| f64::from(u8::from(
+            (x - 4.0).abs() < 2.0 && (y - 4.0).abs() < 2.0
+        ))));
+        assert!(of(&|x, _| f64::from(u8::from((x - 4.0).abs() < 2.0))));
     }
 }

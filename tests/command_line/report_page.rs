@@ -536,6 +536,11 @@ fn results_of_effects_have_a_card_a_curve_and_a_column() {
     let output = tabor(folder.path(), &["check", "scene.toml"]);
     assert_eq!(status(&output), 2);
     assert!(errors(&output).contains("give both conductivities in W/(m K), or both in S/m"));
+    let named = EFFECTS.replace("[conductance]", "[conductance]\nkind = \"thermal\"");
+    let folder = binary::scene(&named);
+    let output = tabor(folder.path(), &["check", "scene.toml"]);
+    assert_eq!(status(&output), 2);
+    assert!(errors(&output).contains("and this one is in S/m; give kind = \"electrical\""));
 }
 
 /// A machine without programs has no browser.

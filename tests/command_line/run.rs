@@ -1012,7 +1012,7 @@ fn implausible_quantities_are_warned_of_with_the_likely_slip() {
     );
     for (set, warning) in [
         (
-            "capillary.temperature=25",
+            "capillary={ humidity = 0.9, temperature = 25, surface_tension = 0.05, molar_volume = 4e-5 }",
             "a temperature of 25 K at which a liquid condenses: was it meant in degrees Celsius?",
         ),
         (

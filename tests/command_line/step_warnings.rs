@@ -250,6 +250,37 @@ output = {{ images = [] }}
     }
 }
 
+/// Pressed together in one step and apart in the next, the surfaces show no tension. A hard wall without adhesion has none to show.
+fn a_path_that_passes_over_pull_off_says_so() {
+    let adhesion = "adhesion = { law = \"maugis-dugdale\", work_of_adhesion = \"50 mJ/m^2\", range = \"0.25 um\" }";
+    for (adhesion, control, path) in [
+        (adhesion, "approach", "[\"2 um\", \"-4 um\"]"),
+        (adhesion, "mean-gap", "[\"2.5 um\", \"9 um\"]"),
+        ("", "approach", "[\"2 um\", \"-4 um\"]"),
+    ] {
+        let folder = scene(&format!(
+            r#"
+grid = {{ points = 64, size = "60 um", boundary = "free" }}
+solid = {{ contact_modulus = "1 MPa" }}
+surface = [{{ kind = "sphere", radius = "100 um" }}]
+{adhesion}
+loading = {{ control = "{control}", path = {path} }}
+output = {{ images = [] }}
+"#
+        ));
+        let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+        let said = errors(&output);
+        assert_eq!(status(&output), 0, "{said}");
+        let rows = table(&folder.path().join("out/curve.csv"));
+        let force = number(&rows[0], "force").expect("a force");
+        assert!(force > 0.0, "{force}");
+        assert_eq!(rows[1]["state"], "separated");
+        let warning =
+            "pressed together in step 1 and apart in step 2: the path passed over their pull-off";
+        assert_eq!(said.contains(warning), !adhesion.is_empty(), "{said}");
+    }
+}
+
 /// The pressures of a closed wave are 6e9 times those of the load that it is let down to, which single precision does not resolve beside them: the
 /// surfaces were 2.1 mm apart, and that was converged. The load is solved for from the undeformed surfaces then.
 fn a_load_that_rounding_hides_is_borne() {
@@ -275,6 +306,7 @@ tests![
     a_jump_that_is_a_guess_is_warned_of,
     a_load_that_rounding_hides_is_borne,
     the_tail_of_a_law_is_no_pull_off,
+    a_path_that_passes_over_pull_off_says_so,
     attraction_over_few_pixels_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,

@@ -17,6 +17,11 @@ const LONGEST_FILE: usize = 200_000;
 pub(super) fn html(setup: &Setup) -> Markup {
     let scene = setup.scene.resolved_json();
     let mut shown = scene.clone();
+    if let Some(grid) = shown.get_mut("grid").and_then(Value::as_object_mut) {
+        // Of a height file whose scene gives none.
+        let [lx, ly] = [setup.surface.grid.lx, setup.surface.grid.ly];
+        grid.entry("size").or_insert(json!([lx, ly]));
+    }
     if let (Some(durations), Some(loading)) = (
         &setup.scene.loading.durations,
         shown.get_mut("loading").and_then(Value::as_object_mut),

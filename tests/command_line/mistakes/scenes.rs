@@ -454,6 +454,7 @@ fn mistakes_in_capillary(tables: &mut Vec<Edits>) {
         ("humidity = 0.5", "humidity = 0.5\ncontact_angle = 90", "s.toml:12: capillary.contact_angle: 90 is out of range", "only a wetting liquid attracts"),
         ("humidity = 0.5", "humidity = 0.5\ntemperature = \"25 C\"", "s.toml:12: capillary.temperature:", "K"),
         ("humidity = 0.5", "humidity = 0.5\ntemperature = 700", "s.toml:12: capillary.temperature: 700 K is above the critical point of water", "give surface_tension and molar_volume"),
+        ("humidity = 0.5", "humidity = 0.5\ntemperature = 25", "s.toml:12: capillary.temperature: 25 K is below 248.15 K", "was it meant in Celsius"),
         ("humidity = 0.5", "humidity = 0.5\nmolar_volume = 0", "s.toml:12: capillary.molar_volume: 0 is out of range", "finite and above 0"),
         ("humidity = 0.5", "humidity = 0.5\nsurface_tension = \"72 mPa\"", "s.toml:12: capillary.surface_tension:", "N/m"),
         ("humidity = 0.5", "humidity = 0.5\nsurface_tension = 1e20\nmolar_volume = 1e20", "s.toml:11: capillary.humidity: makes a meniscus", "check the powers of ten"),
