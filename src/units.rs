@@ -256,6 +256,12 @@ pub fn unit_factor(name: &str, expected: Dimension) -> Result<f64, UnitError> {
     Ok(scale("1", 0, unit))
 }
 
+/// Whether a text is a quantity rather than a unit alone.
+pub(crate) fn starts_like_a_number(text: &str) -> bool {
+    text.trim_start()
+        .starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first))
+}
+
 /// The head of a column, `force [nN]` or `force (nN)`, as name and unit.
 pub(crate) fn name_and_unit(text: &str) -> (&str, Option<&str>) {
     for (open, close) in [('[', ']'), ('(', ')')] {

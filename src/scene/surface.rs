@@ -237,7 +237,7 @@ fn file(part: &Reader, folder: &Path) -> Option<SurfacePart> {
     let unit = match part.node("unit").map(|node| &node.value) {
         None => Some(1.0),
         // A unit alone, as in "nm", or a length, as in "0.5 nm" or 5e-10.
-        Some(Value::Text(text)) if !starts_like_a_number(text) => {
+        Some(Value::Text(text)) if !units::starts_like_a_number(text) => {
             let factor = units::unit_factor(text, Dimension::Length);
             factor
                 .map_err(|error| part.report("unit", error.into()))
@@ -315,9 +315,4 @@ fn preparation(part: &Reader) -> Option<Preparation> {
         edges: edges?,
         resample: resample?,
     })
-}
-
-fn starts_like_a_number(text: &str) -> bool {
-    text.trim_start()
-        .starts_with(|first: char| first.is_ascii_digit() || "+-.".contains(first))
 }

@@ -465,6 +465,13 @@ fn heights_in_another_unit_than_the_size_are_told() {
             errors(&output).contains("were the heights meant in another unit than the size?");
         assert_eq!(told, is_told, "{}", errors(&output));
     }
+    let refused = tabor(folder, &["surface", "map.txt", "--unit", "foo"]);
+    assert_eq!(refused.status.code(), Some(2));
+    assert!(
+        errors(&refused).contains("unknown unit"),
+        "{}",
+        errors(&refused)
+    );
 }
 
 fn a_tilted_map_is_told() {

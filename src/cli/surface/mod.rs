@@ -22,7 +22,7 @@ use crate::scene::{
 };
 use crate::study::implausible_surface;
 use crate::surface::{Surface, SurfaceError};
-use crate::units::{Dimension, RANGE_WORDS, in_range};
+use crate::units::{Dimension, RANGE_WORDS, in_range, starts_like_a_number, unit_factor};
 use measured::measured_scene;
 use report::Report;
 
@@ -165,7 +165,10 @@ fn factor(text: &str) -> Result<f64, String> {
 
 /// A unit alone, as in `nm`, or a length, as in `0.5 nm`.
 fn unit(text: &str) -> Result<f64, String> {
-    crate::units::unit_factor(text, Dimension::Length).or_else(|_| length(text))
+    match starts_like_a_number(text) {
+        true => length(text),
+        false => unit_factor(text, Dimension::Length).map_err(|error| error.to_string()),
+    }
 }
 
 fn size(text: &str) -> Result<[f64; 2], String> {
