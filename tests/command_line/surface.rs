@@ -468,7 +468,7 @@ fn heights_in_another_unit_than_the_size_are_told() {
     let refused = tabor(folder, &["surface", "map.txt", "--unit", "foo"]);
     assert_eq!(refused.status.code(), Some(2));
     assert!(
-        errors(&refused).contains("unknown unit"),
+        errors(&refused).contains("is not a unit that is known here"),
         "{}",
         errors(&refused)
     );
