@@ -7,6 +7,7 @@ use std::sync::mpsc::{Sender, channel};
 
 use pyo3::prelude::*;
 use pyo3::types::PyList;
+use tabor::backend::cpu::with_threads;
 use tabor::{RunObserver, RunOptions, RunStatus, StepRow};
 
 use crate::arrays::Lent;
@@ -74,7 +75,10 @@ pub fn run(
     Lent::check(py, &scene.lent)?;
     let (teller, scene) = (scene.teller(), scene.scene.clone());
     let end = wait_and_join(py, &talk, progress, move || {
-        tabor::run_with(scene, &folder, &options, &mut hearer)
+        // The pool that all share is without threads in a fork of this process, and not all of a run is in the pool that it makes.
+        with_threads(threads, || {
+            tabor::run_with(scene, &folder, &options, &mut hearer)
+        })?
     });
     for words in heard.try_iter() {
         said.append(words)?;

@@ -210,6 +210,19 @@ def test_a_fork_after_a_solve_solves():
         assert pool.map_async(area, [1e6, 2e6]).get(timeout=60) == expected
 
 
+def run_in(folder):
+    loaded = contact(loading={"control": "pressure", "path": [1e6]})
+    return [float(fraction) for fraction in loaded.run(folder).curve["contact_area_fraction"]]
+
+
+@pytest.mark.skipif("fork" not in multiprocessing.get_all_start_methods(), reason="this system does not fork")
+@pytest.mark.filterwarnings("ignore:This process .* is multi-threaded")
+def test_a_fork_after_a_run_runs(tmp_path):
+    expected = run_in(tmp_path / "before")
+    with multiprocessing.get_context("fork").Pool(1) as pool:
+        assert pool.map_async(run_in, [tmp_path / "fork"]).get(timeout=60) == [expected]
+
+
 BEGUN = []
 
 

@@ -32,6 +32,8 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
     let (numbers, mut header) = map.split();
     let (rows, columns) = (header.rows, header.columns);
     let [lines, count] = [rows.min(columns), rows.max(columns)];
+    // The side that the line lies along.
+    let along = usize::from(rows > columns);
     let mut numbers = numbers.into_rows();
     let mut found = Vec::new();
     found.resize_with(lines.min(2), Vec::new);
@@ -71,8 +73,8 @@ pub(super) fn to_profile(map: Map) -> Result<Matrix, FileError> {
             Some(unit) => Size::Metres([length * unit; 2]),
             None => Size::LikeHeights([length; 2]),
         }),
-        (None, Some(Size::Metres([x, y]))) => Some(Size::Metres([x.max(y); 2])),
-        (None, Some(Size::LikeHeights([x, y]))) => Some(Size::LikeHeights([x.max(y); 2])),
+        (None, Some(Size::Metres(sides))) => Some(Size::Metres([sides[along]; 2])),
+        (None, Some(Size::LikeHeights(sides))) => Some(Size::LikeHeights([sides[along]; 2])),
         (None, None) => None,
     };
     (header.lateral_unit, header.places) = (None, None);
@@ -177,7 +179,7 @@ pub(super) fn crop(matrix: &mut Matrix, crop: [usize; 4]) -> Result<(), FileErro
     Ok(())
 }
 
-/// Interpolates points that stand out of their eight neighbours' median by more than `times` the standard deviation
+/// Interpolates points that stand out of their neighbours' median by more than `times` the standard deviation
 /// of such differences, estimated from their median, or where that is 0 from that of the others. Returns how many; none where a
 /// process has ended.
 ///
@@ -196,7 +198,7 @@ pub(super) fn remove_outliers(
     // The held rows between those beside them, which an edge of the map lacks.
     let around_here = [&before[..], values, &after[..]].concat();
     let differences: Vec<f64> = (before.len()..before.len() + values.len())
-        .map(|index| around_here[index] - median(&mut around(&around_here, columns, index)))
+        .map(|index| difference(&around_here, columns, index))
         .collect();
     drop(around_here);
     let mut sizes: Vec<f64> = differences.iter().map(|one| one.abs()).collect();
@@ -234,19 +236,62 @@ pub(super) struct Outliers {
     pub(super) deviation: f64,
 }
 
-/// The up to eight neighbours of a point.
-fn around(values: &[f64], columns: usize, index: usize) -> Vec<f64> {
+/// Neighbours of a point, by rows and columns from it, half of them: the others lie opposite.
+const AROUND: [[isize; 2]; 4] = [[0, 1], [1, 0], [1, 1], [1, -1]];
+/// The same on a line.
+const ALONG: [[isize; 2]; 2] = [[0, 1], [0, 2]];
+
+/// The difference of a point from the median of its eight neighbours, or on a line of four.
+///
+/// At an edge these lie to one side, where a tilt makes their median another. The difference there is that from the neighbours on
+/// both sides along the edge, or at a corner from the plane through three of them, if it is less.
+fn difference(values: &[f64], columns: usize, index: usize) -> f64 {
     let rows = values.len() / columns;
     let (row, column) = (index / columns, index % columns);
-    let mut found = Vec::with_capacity(8);
-    for r in row.saturating_sub(1)..=(row + 1).min(rows - 1) {
-        for c in column.saturating_sub(1)..=(column + 1).min(columns - 1) {
-            if (r, c) != (row, column) {
-                found.push(values[r * columns + c]);
-            }
+    let at = |[down, right]: [isize; 2]| -> Option<f64> {
+        let row = row.checked_add_signed(down).filter(|row| *row < rows)?;
+        let column = column.checked_add_signed(right);
+        let column = column.filter(|column| *column < columns)?;
+        Some(values[row * columns + column])
+    };
+    let half: &[[isize; 2]] = if rows == 1 { &ALONG } else { &AROUND };
+    let (mut near, mut facing) = (Vec::with_capacity(8), Vec::with_capacity(8));
+    for &[down, right] in half {
+        let pair = [at([down, right]), at([-down, -right])];
+        near.extend(pair.into_iter().flatten());
+        if let [Some(one), Some(other)] = pair {
+            facing.extend([one, other]);
         }
     }
-    found
+    let here = values[index];
+    let from_all = here - median_between(&mut near);
+    if near.len() == 2 * half.len() {
+        return from_all;
+    }
+    let inward = |place: usize| if place == 0 { 1 } else { -1 };
+    let (down, right) = (inward(row), inward(column));
+    let plane = || match rows {
+        1 => Some(2.0 * at([0, right])? - at([0, 2 * right])?),
+        _ => Some(at([down, 0])? + at([0, right])? - at([down, right])?),
+    };
+    let level = match facing.is_empty() {
+        false => Some(median_between(&mut facing)),
+        true => plane(),
+    };
+    let from_level = level.map_or(from_all, |level| here - level);
+    match from_level.abs() < from_all.abs() {
+        true => from_level,
+        false => from_all,
+    }
+}
+
+/// Median of a few numbers, of an even count the mean of the middle two; 0 of nothing. Reorders them.
+fn median_between(values: &mut [f64]) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    match values.len() {
+        0 => 0.0,
+        count => 0.5 * (values[(count - 1) / 2] + values[count / 2]),
+    }
 }
 
 /// Median of sizes, of which each process has some.
@@ -357,14 +402,14 @@ mod tests {
         flat[4] = 2.0;
         let found = remove_outliers(&mut flat, &all(3, 3), 5.0, false).unwrap();
         assert_eq!((found.count, found.are_few_different), (0, true));
-        // Terraces of 6 and 2 points: the difference at most edges is a step.
+        // Terraces of 6 and 2 points: the difference at most edges is half a step.
         let terraces = |at: usize| f64::from(u8::from((at / 64 + at % 64) % 8 >= 6));
         let mut values: Vec<f64> = (0..64 * 64).map(terraces).collect();
         values[20 * 64 + 20] = 500.0;
         let found = remove_outliers(&mut values, &all(64, 64), 6.0, false).unwrap();
         assert_eq!(
             (found.count, found.are_few_different, found.deviation),
-            (1, true, NORMAL)
+            (1, true, 0.5 * NORMAL)
         );
         for (at, value) in values.iter().enumerate() {
             match at == 20 * 64 + 20 {
@@ -375,6 +420,32 @@ mod tests {
         let mut level = vec![1.0; 9];
         let found = remove_outliers(&mut level, &all(3, 3), 5.0, false).unwrap();
         assert_eq!(found, Outliers::default());
+    }
+
+    /// Tilts and waves do not stand out, neither at edges nor at corners; spikes do, upwards as downwards, also on a line, and no
+    /// neighbour with them.
+    #[test]
+    fn edges_of_tilted_maps_stay() {
+        let noise = |at: usize| ((at * 37) % 11) as f64;
+        for (rows, columns) in [(40, 40), (1, 400)] {
+            let wave = |at: usize| 300.0 * (at as f64 % columns as f64 / 16.0).sin();
+            let tilted = |at: usize| noise(at) + wave(at) + 60.0 * (at / columns) as f64;
+            let healthy: Vec<f64> = (0..rows * columns).map(tilted).collect();
+            for sign in [1.0, -1.0] {
+                let mut values: Vec<f64> = healthy.iter().map(|height| sign * height).collect();
+                let middle = rows * columns / 2;
+                let spikes = [middle + 7, middle + 25];
+                for at in spikes {
+                    values[at] += 3e3;
+                }
+                let before = values.clone();
+                let found = remove_outliers(&mut values, &all(rows, columns), 12.0, false);
+                assert_eq!(found.unwrap().count, spikes.len(), "{rows} rows, {sign}");
+                for (at, (value, before)) in values.iter().zip(&before).enumerate() {
+                    assert_eq!(value != before, spikes.contains(&at), "{rows} rows, {at}");
+                }
+            }
+        }
     }
 
     #[test]
@@ -490,6 +561,15 @@ mod tests {
             };
             let found = to_profile(line.into()).unwrap();
             assert_eq!(found.size, Some(Size::LikeHeights([6.0; 2])));
+        }
+        // The line is as long as the side along it, however wide its pixels are.
+        for (sides, shape) in [([1.5, 6.0], [1, 4]), ([6.0, 1.5], [4, 1])] {
+            let line = Matrix {
+                size: Some(Size::Metres(sides)),
+                ..Matrix::new(vec![3.0, 4.0, 6.0, 5.0], shape)
+            };
+            let found = to_profile(line.into()).unwrap();
+            assert_eq!(found.size, Some(Size::Metres([1.5; 2])));
         }
         // More lines, and more rows than are read at once.
         let many = (0..3 * PASSED).map(|at| at as f64).collect();
