@@ -1,6 +1,9 @@
-//! Pressures that do not add up to the prescribed load, contacts too wide for a half-space, and jumps that are guesses.
+//! Pressures that do not add up to the prescribed load, contacts too wide for a half-space or too narrow for their load, pull-off that
+//! is passed over, and jumps that are guesses.
 
 use std::f64::consts::PI;
+
+use tabor::units::format_si;
 
 use crate::shared::binary::{errors, number, scene, status, summary, table, tabor};
 use crate::shared::trials::tests;
@@ -281,6 +284,87 @@ output = {{ images = [] }}
     }
 }
 
+/// The range that is taken where the scene leaves it open asks for no longer one.
+fn automatic_ranges_are_long_enough() {
+    let folder = scene(
+        r#"
+grid = { points = 64, size = "60 um", boundary = "free" }
+solid = { contact_modulus = "1 MPa" }
+surface = [{ kind = "sphere", radius = "100 um" }]
+loading = { control = "approach", path = ["1 um"] }
+"#,
+    );
+    for (law, ratio) in [
+        // sqrt(50) and 1.25 times sqrt(w dx/E*).
+        ("law = \"maugis-dugdale\", taper = 0", 50f64.sqrt()),
+        ("law = \"maugis-dugdale\"", 2f64.sqrt()),
+        ("law = \"lennard-jones\"", 1.25),
+        ("law = \"exponential\"", 1.0),
+    ] {
+        for points in [64, 100, 128] {
+            let adhesion =
+                format!("adhesion={{ {law}, work_of_adhesion = 0.05, range = \"auto\" }}");
+            let points_set = format!("grid.points={points}");
+            let output = tabor(
+                folder.path(),
+                &[
+                    "check",
+                    "scene.toml",
+                    "--set",
+                    &adhesion,
+                    "--set",
+                    &points_set,
+                ],
+            );
+            let said = errors(&output);
+            assert_eq!(status(&output), 0, "{said}");
+            let range = ratio * (0.05 * 60e-6 / f64::from(points) / 1e6).sqrt();
+            let stands = format!("range = \"auto\" stands for {}", format_si(range, "m"));
+            assert!(said.contains(&stands), "{stands}: {said}");
+            assert!(!said.contains("a longer range"), "{law}, {points}: {said}");
+        }
+    }
+}
+
+/// No point carries more than the hardness H, so that a contact is at least as wide as the load over H, also where the pixel staircase is
+/// taken off.
+fn a_contact_at_the_hardness_is_as_wide_as_its_load_needs() {
+    let folder = scene(
+        r#"
+grid = { points = 64, size = "20 um" }
+solid = { contact_modulus = "100 MPa", hardness = "300 kPa" }
+surface = [{ kind = "self-affine", hurst = 0.8, rms_slope = 0.12, longest = "20 um", rolloff = "10 um", shortest = "2.5 um", seed = 3 }]
+friction = { shear_strength = "1 MPa" }
+loading = { control = "pressure", path = ["15 kPa"] }
+output = { images = [] }
+"#,
+    );
+    let output = tabor(folder.path(), &["run", "scene.toml", "--out", "out"]);
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let rows = table(&folder.path().join("out/curve.csv"));
+    let value = |name| number(&rows[0], name).expect("a number");
+    let corrected = value("contact_area_fraction_corrected");
+    // To the tolerance of the solve, 1e-6.
+    let needed = (1.0 - 1e-5) * 15e3 / 300e3;
+    assert!(corrected >= needed && corrected <= value("contact_area_fraction"));
+    assert!(value("friction_force") >= needed * 1e6 * 20e-6 * 20e-6);
+}
+
+/// 2 E* a of a round punch with half the side for its radius: here 50 N/m.
+fn a_spring_is_compared_with_a_punch_as_wide_as_the_grid() {
+    let folder = scene(&format!(
+        "loading = {{ control = \"approach\", spring = 0.5, path = [0.0] }}\n{SHORT_RANGED}"
+    ));
+    let set = ["--set", "grid.size=50e-6", "--set", "surface.0.radius=1e-4"];
+    let output = tabor(
+        folder.path(),
+        &[&["check", "scene.toml"][..], &set].concat(),
+    );
+    let said = String::from_utf8_lossy(&output.stdout);
+    let words = "1.00e-2 of the stiffness of a punch as wide as the grid";
+    assert!(said.contains(words), "{said}");
+}
+
 /// The pressures of a closed wave are 6e9 times those of the load that it is let down to, which single precision does not resolve beside them: the
 /// surfaces were 2.1 mm apart, and that was converged. The load is solved for from the undeformed surfaces then.
 fn a_load_that_rounding_hides_is_borne() {
@@ -307,6 +391,9 @@ tests![
     a_load_that_rounding_hides_is_borne,
     the_tail_of_a_law_is_no_pull_off,
     a_path_that_passes_over_pull_off_says_so,
+    automatic_ranges_are_long_enough,
+    a_contact_at_the_hardness_is_as_wide_as_its_load_needs,
+    a_spring_is_compared_with_a_punch_as_wide_as_the_grid,
     attraction_over_few_pixels_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
