@@ -84,7 +84,7 @@ fn kernels_written_out_agree_with_their_twins_and_with_loops() {
 fn a_convolution_written_out_is_that_with_loops() {
     let unrolled = unrolled();
     let rounds = is_long().then_some([8192, 4]);
-    for size in [[120, 84], [128, 64]].into_iter().chain(rounds) {
+    for size in [[128, 84]].into_iter().chain(rounds) {
         let fields = [1, 2].map(|seed| Random(seed).singles(size[0] * size[1]));
         let [out, loops] = [&unrolled, device()].map(|device| {
             convolve(
