@@ -9,7 +9,7 @@ const HOLD_SHARE: f64 = 0.05;
 const LEAST_HELD: usize = 5;
 const HOLD_BAND: f64 = 0.01;
 
-/// Numbers that are fitted in addition to those of the model; none by default.
+/// Parameters fitted in addition to the model's own; none by default.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Freedom {
     /// The approach of first touch of the undeformed surfaces is unknown.

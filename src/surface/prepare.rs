@@ -553,23 +553,27 @@ mod tests {
             ..Matrix::new(vec![3.0, 0.0, 4.0, 0.5, 6.0, 1.0], [3, 2])
         };
         assert_eq!(to_profile(behind.into()).unwrap(), found);
-        // Points on one line have pixels as wide as long; the profile is as wide as long.
-        for (sides, shape) in [([6.0, 1.5], [1, 4]), ([1.5, 6.0], [4, 1])] {
+        // The profile is as wide as long, and as long as the side along the line, whether its pixels are narrow or wide.
+        for (size, shape, length) in [
+            (
+                Size::LikeHeights([6.0, 1.5]),
+                [1, 4],
+                Size::LikeHeights([6.0; 2]),
+            ),
+            (
+                Size::LikeHeights([1.5, 6.0]),
+                [4, 1],
+                Size::LikeHeights([6.0; 2]),
+            ),
+            (Size::Metres([1.5, 6.0]), [1, 4], Size::Metres([1.5; 2])),
+            (Size::Metres([6.0, 1.5]), [4, 1], Size::Metres([1.5; 2])),
+        ] {
             let line = Matrix {
-                size: Some(Size::LikeHeights(sides)),
+                size: Some(size),
                 ..Matrix::new(vec![3.0, 4.0, 6.0, 5.0], shape)
             };
             let found = to_profile(line.into()).unwrap();
-            assert_eq!(found.size, Some(Size::LikeHeights([6.0; 2])));
-        }
-        // The line is as long as the side along it, however wide its pixels are.
-        for (sides, shape) in [([1.5, 6.0], [1, 4]), ([6.0, 1.5], [4, 1])] {
-            let line = Matrix {
-                size: Some(Size::Metres(sides)),
-                ..Matrix::new(vec![3.0, 4.0, 6.0, 5.0], shape)
-            };
-            let found = to_profile(line.into()).unwrap();
-            assert_eq!(found.size, Some(Size::Metres([1.5; 2])));
+            assert_eq!(found.size, Some(length));
         }
         // More lines, and more rows than are read at once.
         let many = (0..3 * PASSED).map(|at| at as f64).collect();
