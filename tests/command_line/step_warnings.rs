@@ -334,7 +334,6 @@ fn a_contact_at_the_hardness_is_as_wide_as_its_load_needs() {
 grid = { points = 64, size = "20 um" }
 solid = { contact_modulus = "100 MPa", hardness = "300 kPa" }
 surface = [{ kind = "self-affine", hurst = 0.8, rms_slope = 0.12, longest = "20 um", rolloff = "10 um", shortest = "2.5 um", seed = 3 }]
-friction = { shear_strength = "1 MPa" }
 loading = { control = "pressure", path = ["15 kPa"] }
 output = { images = [] }
 "#,
@@ -347,7 +346,6 @@ output = { images = [] }
     // To the tolerance of the solve, 1e-6.
     let needed = (1.0 - 1e-5) * 15e3 / 300e3;
     assert!(corrected >= needed && corrected <= value("contact_area_fraction"));
-    assert!(value("friction_force") >= needed * 1e6 * 20e-6 * 20e-6);
 }
 
 /// 2 E* a of a round punch with half the side for its radius: here 50 N/m.
