@@ -214,6 +214,8 @@ fn table<'py>(py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict
     step.set_item("residual", row.residual)?;
     step.set_item("iterations", row.iterations)?;
     step.set_item("converged", row.converged)?;
+    let why = solution.unreachable.map(|why| why.to_string());
+    step.set_item("unreachable", why)?;
     step.set_item("seconds", row.seconds)?;
     step.set_item("state", row.state.name())?;
     let jump = solution.jump.map(|jump| match jump {

@@ -43,7 +43,7 @@ pub(super) enum Failure {
         residual: f64,
         iterations: usize,
         tolerance: f64,
-        remedy: &'static str,
+        remedy: String,
     },
     #[error("interrupted after {}", count_of_steps(*finished, *steps))]
     Interrupted { finished: usize, steps: usize },

@@ -143,8 +143,8 @@ impl RunObserver for Terminal {
 
 /// What is to be done where a step did not converge: it may have stalled before its iterations ran out, and have been solved in
 /// double precision already.
-fn remedy(unreachable: Option<Unreachable>, stalled: bool, is_double: bool) -> &'static str {
-    match unreachable {
+fn remedy(unreachable: Option<Unreachable>, stalled: bool, is_double: bool) -> String {
+    let remedy = match unreachable {
         None if stalled && is_double => {
             "the iteration stalls there: name smaller steps, or ask for a larger tolerance"
         }
@@ -152,16 +152,10 @@ fn remedy(unreachable: Option<Unreachable>, stalled: bool, is_double: bool) -> &
             "the iteration stalls there: name smaller steps, or ask for precision = \"double\" or a larger tolerance"
         }
         None => "allow more max_iterations, or take smaller steps",
-        Some(Unreachable::BeyondClosure) => {
-            "the surfaces cannot be closed further than full contact: end the path earlier"
-        }
-        Some(Unreachable::BeyondHardness) => {
-            "the solid flows everywhere before it bears this load: end the path earlier"
-        }
-        Some(Unreachable::Unmeasured) => {
-            "the contact is solved, and its [conductance] or [leakage] is not: allow more max_iterations"
-        }
-    }
+        Some(why @ Unreachable::Unmeasured) => return format!("{why}: allow more max_iterations"),
+        Some(why) => return format!("{why}: end the path earlier"),
+    };
+    remedy.to_owned()
 }
 
 /// The end of a run as its exit status.

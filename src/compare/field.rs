@@ -230,8 +230,11 @@ pub(super) fn dmt(
         let add = |state: State, fields: &Evaluation, _: bool| {
             let open = fields.gap.iter().zip(&fields.points);
             let open = open.filter(|(_, point)| **point != PointState::Contact);
-            let attraction =
+            let across =
                 open.map(|(gap, _)| law.traction(*gap)).sum::<f64>() / fields.gap.len() as f64;
+            // As the treatment has it where the staircase of pixels closes the gap.
+            let corrected = fields.contact_corrected.unwrap_or(fields.contact);
+            let attraction = across + law.traction(0.0) * (fields.contact - corrected);
             let area = state.contact_area_fraction.unwrap_or(f64::NAN);
             let gap = state.mean_gap.unwrap_or(f64::NAN);
             scan.add(state.mean_pressure, area, gap, attraction);

@@ -203,13 +203,14 @@ impl Course {
             }
             let row = so_far.rows.last().cloned();
             let row = row.expect("a step that is not interrupted has a row");
-            let pull_off = so_far.pull_off;
+            let (pull_off, unreachable) = (so_far.pull_off, so_far.unreachable);
             Ok(Solution::new(
                 setup,
                 row,
                 last.evaluation,
                 last.jump,
                 pull_off,
+                unreachable,
             ))
         })
     }

@@ -4,13 +4,14 @@ use std::borrow::Cow;
 
 use crate::scene::FieldName;
 use crate::shared_values::SharedValues;
-use crate::study::{Evaluation, Jump, PullOff, Setup, State, StepRow};
+use crate::study::{Evaluation, Jump, PullOff, Setup, State, StepRow, Unreachable};
 
 /// A solved load, SI. Arrays have shape `[ny, nx]`, row-major: point (ix, iy) is element `iy * nx + ix`.
 ///
 /// A load without equilibrium leaves the surfaces separated: then [`approach`](Solution::approach) is
 /// `None`, the gap is infinite, the pressure 0, and the displacement 0 (NaN on a viscoelastic solid, whose
-/// past still moves it).
+/// past still moves it). One that no contact can have, as a position beyond full contact, has not converged:
+/// [`unreachable`](Solution::unreachable) says why, and these fields are NaN.
 #[derive(Clone, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Solution {
@@ -44,6 +45,8 @@ pub struct Solution {
     /// Whether the residual meets the tolerance. The fields of a load that did not converge are those of its
     /// last iteration, and a path ends there.
     pub converged: bool,
+    /// Why it has not converged, where its iterations are not the reason.
+    pub unreachable: Option<Unreachable>,
     /// Whether something touches, attracts, or nothing of both.
     pub state: State,
     /// The jump between this load and the one before, if there was one.
@@ -63,6 +66,7 @@ impl Solution {
         evaluation: Option<Evaluation>,
         jump: Option<Jump>,
         pull_off: Option<PullOff>,
+        unreachable: Option<Unreachable>,
     ) -> Self {
         let grid = setup.surface.grid;
         let heights = &setup.surface.heights;
@@ -76,13 +80,14 @@ impl Solution {
                 (found.gap, found.pressure, displacement, heights)
             }
             None => {
-                let moved = if setup.scene.solid.relaxation.is_empty() {
-                    0.0
-                } else {
-                    f64::NAN
+                let is_known = !unreachable.is_some_and(Unreachable::is_without_state);
+                let [gap, pressure, displacement] = match setup.scene.solid.relaxation.is_empty() {
+                    _ if !is_known => [f64::NAN; 3],
+                    true => [f64::INFINITY, 0.0, 0.0],
+                    false => [f64::INFINITY, 0.0, f64::NAN],
                 };
                 let all = |value: f64| vec![value; grid.len()];
-                (all(f64::INFINITY), all(0.0), all(moved), heights.clone())
+                (all(gap), all(pressure), all(displacement), heights.clone())
             }
         };
         Solution {
@@ -100,6 +105,7 @@ impl Solution {
             residual: row.residual,
             iterations: row.iterations,
             converged: row.converged,
+            unreachable,
             state: row.state,
             jump,
             pull_off: pull_off.map(|found| [found.lower, found.upper]),

@@ -1,12 +1,12 @@
 //! Evaluation of a solved state: fields in SI units, area fractions, energies.
 
 use std::borrow::Cow;
-use std::f64::consts::{LN_2, PI};
 
 use super::control::{Controller, Position};
+use super::perimeter::{Perimeter, STAIRCASE};
 use super::row::State;
 use super::setup::Setup;
-use crate::backend::{BackendError, Share, host_fields};
+use crate::backend::{BackendError, host_fields};
 use crate::grid::Boundary;
 use crate::law::{Law, Support, imbalance, net_pressure};
 use crate::scene::FieldName;
@@ -222,9 +222,30 @@ impl Evaluation {
             },
         );
         let elastic_energy = 0.5 * work;
-        let force = force * problem.grid.pixel_area();
-        let gap = problem.cut_to_surface(solved.gap);
-        let pressure = problem.cut_to_surface(solved.elastic);
+        let mut gap = problem.cut_to_surface(solved.gap);
+        let mut pressure = problem.cut_to_surface(solved.elastic);
+        let perimeter = Perimeter::new(&points, share, problem.boundary)?;
+        // Attraction that is summed over the gap acts on the part of a pixel in contact that only the staircase closes.
+        let at_edges = if setup.sums_attraction() {
+            let tension = law.traction(0.0) * scales.pressure;
+            let none: &mut [()] = &mut [];
+            let [sum] = share.sums_changing(
+                (nx, [&mut pressure, &mut gap]),
+                (nx, none),
+                |row, [pressure, _], _, [sum]| {
+                    for (x, pressure) in pressure.iter_mut().enumerate() {
+                        let open = STAIRCASE * perimeter.edges_of(x, row) as f64;
+                        let pull = open * pulling(row * nx + x) * tension;
+                        *pressure -= pull;
+                        *sum += pull;
+                    }
+                },
+            );
+            sum
+        } else {
+            0.0
+        };
+        let force = (force - at_edges) * problem.grid.pixel_area();
         plastic_depth
             .iter_mut()
             .for_each(|depth| *depth *= scales.length);
@@ -249,8 +270,7 @@ impl Evaluation {
             State::Separated
         };
         let contact_corrected = if problem.law.has_wall() {
-            let edges = perimeter_edges(&points, share, problem.boundary)?;
-            let corrected = contact - (PI - 1.0 + LN_2) / 24.0 * edges as f64 / count;
+            let corrected = contact - STAIRCASE * perimeter.edges() as f64 / count;
             // No point carries more than the hardness: the area that the pressures need at least is no staircase.
             let needed = problem.hardness.map_or(0.0, |hardness| {
                 let carried = share.surface_sum_by(&pressure, |pressure| pressure.max(0.0));
@@ -365,78 +385,5 @@ impl<'a> Closing<'a> {
                 *g = 0.0;
             }
         }
-    }
-}
-
-/// Edges between a point in contact and a 4-neighbour that is not; they wrap on a periodic grid.
-///
-/// The staircase of a contact overestimates its area by (pi - 1 + ln 2)/24 of a pixel an edge
-/// (Yastrebov, Anciaux & Molinari 2017, doi:10.1016/j.triboint.2017.04.023).
-///
-/// # Errors
-/// Another rank has ended.
-fn perimeter_edges(
-    points: &[PointState],
-    share: &Share,
-    boundary: Boundary,
-) -> Result<usize, BackendError> {
-    let [nx, ny] = share.surface();
-    let rows = share.surface_rows();
-    let wraps = boundary == Boundary::Periodic;
-    // All that others want of these rows is the first one.
-    let first: Vec<u8> = points[..nx.min(points.len())]
-        .iter()
-        .map(|point| *point as u8)
-        .collect();
-    let after = share.surface_row_after(&first)?;
-    let edges_of_row = |y: usize| {
-        let row = &points[y * nx..(y + 1) * nx];
-        let mut edges = differing(touches(row), touches(&row[1..]));
-        if wraps && nx > 1 {
-            edges += differing(touches(&row[nx - 1..]), touches(row));
-        }
-        if rows.start + y + 1 < ny || (wraps && ny > 1) {
-            edges += match y + 1 < rows.len() {
-                true => differing(touches(row), touches(&points[(y + 1) * nx..])),
-                false => differing(
-                    touches(row),
-                    after
-                        .iter()
-                        .map(|&point| point == PointState::Contact as u8),
-                ),
-            };
-        }
-        edges
-    };
-    let edges = host_fields::count_in_rows(rows.len(), edges_of_row);
-    let [edges] = share.counts([edges]);
-    Ok(edges)
-}
-
-/// Which points touch.
-fn touches(points: &[PointState]) -> impl Iterator<Item = bool> {
-    points.iter().map(|point| *point == PointState::Contact)
-}
-
-/// How many of the pairs differ.
-fn differing(some: impl Iterator<Item = bool>, others: impl Iterator<Item = bool>) -> usize {
-    some.zip(others)
-        .map(|(one, other)| usize::from(one != other))
-        .sum()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::backend::Shape;
-
-    #[test]
-    fn edges_wrap_on_a_periodic_grid_only() {
-        let mut points = vec![PointState::Separated; 12];
-        points[0] = PointState::Contact;
-        let share = Share::whole(Shape::whole(4, 3));
-        let edges = |boundary| perimeter_edges(&points, &share, boundary).expect("one process");
-        assert_eq!(edges(Boundary::Periodic), 4);
-        assert_eq!(edges(Boundary::Free), 2);
     }
 }

@@ -16,6 +16,7 @@ mod jumps;
 mod memory;
 mod observer;
 mod path;
+mod perimeter;
 mod plan;
 mod planned;
 mod plausible;

@@ -1,5 +1,7 @@
 //! The observer of a path, which keeps its steps and watches its solver, and the end of the path.
 
+use std::fmt;
+
 use super::between::Search;
 use super::checkpoint::Checkpoint;
 use super::evaluation::Evaluation;
@@ -78,6 +80,26 @@ pub enum Unreachable {
     BeyondHardness,
     /// The contact is solved, and its conductance or the flow through its gap is not.
     Unmeasured,
+}
+
+impl Unreachable {
+    /// Whether no contact has the prescribed value, so that there are no fields.
+    pub(crate) fn is_without_state(self) -> bool {
+        self != Unreachable::Unmeasured
+    }
+}
+
+/// The reason as a clause.
+impl fmt::Display for Unreachable {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        out.write_str(match self {
+            Unreachable::BeyondClosure => "the surfaces cannot be closed further than full contact",
+            Unreachable::BeyondHardness => "the solid flows everywhere before it bears this load",
+            Unreachable::Unmeasured => {
+                "the contact is solved, and its [conductance] or [leakage] is not"
+            }
+        })
+    }
 }
 
 /// How a path ended.

@@ -1,4 +1,4 @@
-//! Removes the mean, a plane or a quadratic from a measured height map by least squares, or the mean of each row.
+//! Least-squares surfaces through a measured height map: the mean, a plane or a quadratic that is removed, or the mean of each row.
 
 use nalgebra::{DMatrix, DVector};
 
@@ -34,36 +34,64 @@ pub(super) fn detrend(heights: &mut [f64], share: &Share, kind: Detrend) {
     // Subtract the mean first: a large offset would cost digits in the sums.
     let mean = share.surface_sum_by(heights, |height| height) / count;
     heights.iter_mut().for_each(|height| *height -= mean);
-    let sums: [f64; SUMS] = share.sums(heights.len() / columns, |row, sums| {
-        let (products, load) = sums.split_at_mut(TERMS * TERMS);
-        for (index, height) in line(heights, row, columns) {
-            let basis = basis(first + index, rows, columns);
-            for (i, one) in basis.iter().take(terms).enumerate() {
-                load[i] += one * height;
-                for (j, other) in basis.iter().take(terms).enumerate() {
-                    products[i * TERMS + j] += one * other;
-                }
-            }
-        }
-    });
-    let normal = DMatrix::from_fn(terms, terms, |i, j| sums[i * TERMS + j]);
-    let load = DVector::from_fn(terms, |i, _| sums[TERMS * TERMS + i]);
-    // Scaled so that a term that a narrow map cannot determine has a singular value of 0 up to
-    // rounding.
-    let Ok(coefficients) = (normal / count)
-        .svd(true, true)
-        .solve(&(load / count), 1e-12)
-    else {
+    let Some(trend) = Trend::through(heights, share, terms, count) else {
         return;
     };
     for (index, height) in heights.iter_mut().enumerate() {
-        let basis = basis(first + index, rows, columns);
-        let trend: f64 = basis
-            .iter()
-            .zip(coefficients.iter())
-            .map(|(b, c)| b * c)
-            .sum();
-        *height -= trend;
+        *height -= trend.at(first + index);
+    }
+}
+
+/// A least-squares surface on the pixels of a map.
+pub(super) struct Trend {
+    coefficients: Vec<f64>,
+    columns: usize,
+    rows: usize,
+}
+
+impl Trend {
+    /// The plane through the known ones of the heights less their mean, which are so many; the others are not finite. `None` where it
+    /// is not found.
+    pub fn plane(heights: &[f64], share: &Share, mean: f64, known: f64) -> Option<Trend> {
+        let less_mean: Vec<f64> = heights.iter().map(|height| height - mean).collect();
+        Trend::through(&less_mean, share, 3, known)
+    }
+
+    /// That of so many terms through the known ones of the heights, which are so many.
+    fn through(heights: &[f64], share: &Share, terms: usize, known: f64) -> Option<Trend> {
+        let [columns, rows] = share.surface();
+        let first = share.surface_rows().start * columns;
+        let sums: [f64; SUMS] = share.sums(heights.len() / columns, |row, sums| {
+            let (products, load) = sums.split_at_mut(TERMS * TERMS);
+            let line = line(heights, row, columns);
+            for (index, height) in line.filter(|(_, height)| height.is_finite()) {
+                let basis = basis(first + index, rows, columns);
+                for (i, one) in basis.iter().take(terms).enumerate() {
+                    load[i] += one * height;
+                    for (j, other) in basis.iter().take(terms).enumerate() {
+                        products[i * TERMS + j] += one * other;
+                    }
+                }
+            }
+        });
+        let normal = DMatrix::from_fn(terms, terms, |i, j| sums[i * TERMS + j]);
+        let load = DVector::from_fn(terms, |i, _| sums[TERMS * TERMS + i]);
+        // Scaled so that a term that a narrow map cannot determine has a singular value of 0 up to
+        // rounding.
+        let found = (normal / known).svd(true, true);
+        let coefficients = found.solve(&(load / known), 1e-12).ok()?;
+        Some(Trend {
+            coefficients: coefficients.iter().copied().collect(),
+            columns,
+            rows,
+        })
+    }
+
+    /// Its height at a pixel of the map.
+    pub fn at(&self, index: usize) -> f64 {
+        let basis = basis(index, self.rows, self.columns);
+        let terms = basis.iter().zip(&self.coefficients);
+        terms.map(|(b, c)| b * c).sum()
     }
 }
 

@@ -220,10 +220,9 @@ pub(super) fn heights_of(
     let wraps = is_periodic
         && asked.edges == Edges::None
         && !matches!(scene.detrend, Detrend::Plane | Detrend::Quadratic);
-    fill_missing(&mut heights, share, scene.fill, wraps, &mut warnings)?;
-
+    check_missing(&heights, share, scene.fill, &mut warnings)?;
     if let Some(times) = asked.outliers {
-        let found = prepare::remove_outliers(&mut heights, share, times, wraps)?;
+        let found = prepare::drop_outliers(&mut heights, share, times);
         let all = points[0] * points[1];
         if found.count > 0 {
             warnings.push(format!(
@@ -239,6 +238,8 @@ pub(super) fn heights_of(
             ));
         }
     }
+    // At once: a point that stands out is no neighbour to fill another from.
+    fill::interpolate(&mut heights, share, wraps)?;
 
     if matrix.grey && scene.unit != 1.0 {
         warnings.push(format!(
@@ -361,12 +362,11 @@ fn factor_and_zero(
     }
 }
 
-/// Fills missing pixels, also from across the edges of a map that `wraps`, or refuses them.
-fn fill_missing(
-    values: &mut [f64],
+/// Refuses missing pixels unless they are to be filled.
+fn check_missing(
+    values: &[f64],
     share: &Share,
     fill: Fill,
-    wraps: bool,
     warnings: &mut Vec<String>,
 ) -> Result<(), FileError> {
     let [columns, rows] = share.surface();
@@ -399,7 +399,6 @@ fn fill_missing(
         }
         Fill::Interpolate if count == points => Err(FileError::AllMissing { points }),
         Fill::Interpolate => {
-            fill::interpolate(values, share, wraps)?;
             warnings.push(format!(
                 "{count} of {points} pixels ({:.2} %) were missing and are interpolated",
                 100.0 * count as f64 / points as f64

@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use super::detrend::Trend;
 use super::error::FileError;
 use crate::backend::{BackendError, Share};
 
@@ -20,7 +21,8 @@ const MOST_MISSING: usize = 1 << 22;
 /// `values` are the rows of a map that this process holds, row-major. Each replaced pixel is the mean of its neighbours
 /// (up to 4; always 4 on a periodic map, across the edges). This is the discrete Laplace equation with pixels
 /// taken as square, solved by conjugate gradients; the number of iterations grows with the diameter
-/// of the largest hole. Without any finite pixel nothing is replaced, nor where a process has ended.
+/// of the largest hole. A membrane ends level at a free edge: where pixels are missing there and at most half of the map is, it is that
+/// of the heights above the plane through the known ones, so that the tilt goes on to the edge. Without any finite pixel nothing is replaced, nor where a process has ended.
 ///
 /// # Errors
 /// More missing pixels than several processes fill.
@@ -73,6 +75,17 @@ fn fill(values: &mut [f64], share: &Share, periodic: bool) -> Result<usize, Back
         }
     });
 
+    let is_at_edge = |pixel: &usize| {
+        let neighbours = neighbours_of(*pixel, rows, columns, periodic).into_iter();
+        let axes = [columns, rows].iter().filter(|count| **count > 1).count();
+        neighbours.flatten().count() < 2 * axes
+    };
+    let plane = match known >= none as f64 && missing.iter().any(is_at_edge) {
+        true => Trend::plane(values, share, mean, known),
+        false => None,
+    };
+    let level = |pixel: usize| mean + plane.as_ref().map_or(0.0, |plane| plane.at(pixel));
+
     // Index of a missing pixel in the list of unknowns; `none` for a known pixel.
     let slot = |pixel: usize| missing.binary_search(&pixel).unwrap_or(none);
     // The equations: degree * unknown - sum of unknown neighbours = sum of known neighbours.
@@ -97,7 +110,7 @@ fn fill(values: &mut [f64], share: &Share, periodic: bool) -> Result<usize, Back
         let around = neighbours_of(*pixel, rows, columns, periodic);
         for neighbour in around.into_iter().flatten() {
             if slot(neighbour) == none {
-                load += value(neighbour) - mean;
+                load += value(neighbour) - level(neighbour);
             }
         }
         load
@@ -106,7 +119,7 @@ fn fill(values: &mut [f64], share: &Share, periodic: bool) -> Result<usize, Back
     // Every process solves for all.
     let unknown = solve_membrane(&neighbours, &degrees, share.numbers(&loads, lengths())?);
     for pixel in here {
-        values[pixel - first] = mean + unknown[slot(pixel)];
+        values[pixel - first] = level(pixel) + unknown[slot(pixel)];
     }
     Ok(none)
 }
@@ -222,6 +235,22 @@ mod tests {
         }
     }
 
+    /// A tilt goes on to a free edge, where a level membrane would bend it, and a map that is mostly missing ends level.
+    #[test]
+    fn a_missing_edge_keeps_the_tilt() {
+        let plane = |i: usize| 3.0 + 0.5 * (i % 12) as f64 - 2.0 * (i / 12) as f64;
+        for strip in [4, 8] {
+            let is_missing = |i: usize| i % 12 >= 12 - strip;
+            let known = |i| if is_missing(i) { f64::NAN } else { plane(i) };
+            let mut values: Vec<f64> = (0..120).map(known).collect();
+            assert_eq!(filled(&mut values, 10, 12, false), 10 * strip);
+            let worst = (0..120).map(|i| (values[i] - plane(i)).abs());
+            let worst = worst.fold(0.0, f64::max);
+            assert_eq!(worst < 1e-9, strip == 4, "{worst}");
+            assert!(values.iter().all(|value| (-16.0..=9.0).contains(value)));
+        }
+    }
+
     /// Every process refuses what is too much for one of several, and fills what is not, to the bits of one alone.
     #[test]
     fn several_processes_refuse_too_many_holes() {
@@ -267,7 +296,8 @@ mod tests {
         let row = [f64::NAN, 1.0, 2.0, 7.0];
         let mut free = row;
         filled(&mut free, 1, 4, false);
-        assert_relative_eq!(free[0], 1.0, max_relative = 1e-12);
+        // The line through the others is 1/3 at 1 and -8/3 at 0.
+        assert_relative_eq!(free[0], -2.0, max_relative = 1e-12);
         let mut periodic = row;
         filled(&mut periodic, 1, 4, true);
         assert_relative_eq!(periodic[0], 4.0, max_relative = 1e-12);

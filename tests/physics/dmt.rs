@@ -90,16 +90,18 @@ fn rungs(folder: &Path, law: &str, [low, high]: [f64; 2], count: i32) -> Vec<(f6
         .collect();
     let (law, _) = walked(folder, &scene(law, true, &[1e6]));
     let (_, rows) = walked(folder, &scene("", false, &path));
-    let net = rows.iter().zip(&path).map(|((_, _, gaps), repulsive)| {
-        let pull = attraction(&law, gaps);
+    let net = rows.iter().zip(&path).map(|((row, _, gaps), repulsive)| {
+        let pull = attraction(&law, row, gaps);
         (*repulsive, repulsive - pull)
     });
     net.collect()
 }
 
-/// Mean attraction of the law across the open gaps of a field, Pa.
-fn attraction(setup: &Setup, gaps: &[f64]) -> f64 {
-    gaps.iter().map(|gap| setup.law.traction(*gap)).sum::<f64>() / 1024.0
+/// Mean attraction of the law across the open gaps of a field and where the staircase of pixels closes them, Pa.
+fn attraction(setup: &Setup, row: &StepRow, gaps: &[f64]) -> f64 {
+    let open = gaps.iter().map(|gap| setup.law.traction(*gap)).sum::<f64>() / 1024.0;
+    let corrected = row.contact_area_fraction_corrected.unwrap_or(0.0);
+    open + setup.law.traction(0.0) * (row.contact_area_fraction - corrected)
 }
 
 /// Factor between the repulsive pressures at which `compare` looks into a dip: two of its rungs, of a factor of
@@ -207,10 +209,10 @@ fn a_load_is_met_on_the_closest_branch() {
             // And it is one: the hard wall has its area and its sum under the repulsive pressures about its own, between
             // which a point may come into contact. A rung of the ladder is no bound on the area from above, for
             // between two there may be a balance that the ladder does not show.
-            let repulsive = mean + attraction(&setup, gaps);
+            let repulsive = mean + attraction(&setup, row, gaps);
             let path = [1.0 - BESIDE, 1.0 + BESIDE].map(|share| share * repulsive);
             let (_, walls) = walked(folder.path(), &scene("", false, &path));
-            let nets = [0, 1].map(|i| path[i] - attraction(&setup, &walls[i].2));
+            let nets = [0, 1].map(|i| path[i] - attraction(&setup, &walls[i].0, &walls[i].2));
             let areas = [0, 1].map(|i| walls[i].0.contact_area_fraction);
             let off = |found: f64, ends: [f64; 2]| {
                 (ends[0].min(ends[1]) - found).max(found - ends[0].max(ends[1]))

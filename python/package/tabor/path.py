@@ -88,7 +88,7 @@ class Path:
         for words in said:
             warnings.warn(self._told(words), TaborWarning, stacklevel=level)
         if not step.converged:
-            words = f"a load did not converge: residual {step.residual:.1e} after {step.iterations} iterations"
+            words = f"a load did not converge: {step.unreachable or f'residual {step.residual:.1e} after {step.iterations} iterations'}"
             warnings.warn(words, NotConvergedWarning, stacklevel=level)
         return step
 

@@ -25,8 +25,9 @@ class Step:
         of a path are one array, which cannot be written to.
     contact_area_fraction, force, mean_pressure : float
         Of the whole cell; so are ``approach`` and ``mean_gap``, m, which are None where the surfaces are separated.
-    residual, iterations, converged
-        How well it is solved.
+    residual, iterations, converged, unreachable
+        How well it is solved; `unreachable` is why not, where the iterations are not the reason, and None otherwise. Of a value that no
+        contact can have, as a position beyond full contact, the fields are NaN.
     state, jump : str
         "contact", "attracted" or "separated"; "in", "off" or None.
     pull_off : (float, float) or None
@@ -95,6 +96,11 @@ class Step:
 
         return plot_field(self, field, axes)
 
+    @property
+    def _has_no_solution(self) -> bool:
+        """Whether no contact has the value that was asked for."""
+        return self._found.get("unreachable") is not None and self._found["approach"] is None
+
     def _described(self) -> dict[str, str]:
         """The main numbers, in words."""
         found = self._found
@@ -108,7 +114,9 @@ class Step:
             if found[name] is not None:
                 described[name.replace("_", " ")] = words(found[name], "m", 6)
         described["residual"] = f"{found['residual']:.1e} after {found['iterations']} iterations"
-        if not found["converged"]:
+        if self._has_no_solution:
+            described["state"] = f"no solution: {found['unreachable']}"
+        elif not found["converged"]:
             described["residual"] += ", not converged"
         return described
 
@@ -118,6 +126,8 @@ class Step:
 
     def __repr__(self) -> str:
         found = self._found
+        if self._has_no_solution:
+            return f"<Step {found['number']}: no solution, {found['unreachable']}>"
         ending = "" if found["converged"] else f", not converged (residual {found['residual']:.1e})"
         return (
             f"<Step {found['number']}: {found['state']}, mean pressure {words(found['mean_pressure'], 'Pa')}, "

@@ -225,6 +225,30 @@ impl Share {
         Ok([found, after])
     }
 
+    /// The rows of the surface before and after those of this rank, on the ring of all rows, from the first and the last row of each
+    /// rank; both are empty of a rank without any.
+    ///
+    /// # Errors
+    /// A rank has ended.
+    pub fn surface_rows_around<T: Pod>(
+        &self,
+        first: &[T],
+        last: &[T],
+    ) -> Result<[Vec<T>; 2], BackendError> {
+        let all = self.shape.surface[1];
+        let before = |rank: usize| {
+            let rows = self.surface_rows_of(rank);
+            let earlier = (!rows.is_empty()).then(|| (rows.start + all - 1) % all);
+            earlier.into_iter().collect()
+        };
+        let lasts = |rank: usize| {
+            let rows = self.surface_rows_of(rank);
+            rows.start.max(rows.end.saturating_sub(1))..rows.end
+        };
+        let before = self.fetch(last, self.shape.surface[0], lasts, before)?;
+        Ok([before, self.surface_row_after(first)?])
+    }
+
     /// The row of the surface after those of this rank, on the ring of all rows, from the first row of each rank; none
     /// of a rank without any.
     ///
