@@ -163,3 +163,17 @@ def test_control_c_ends_a_solve_within_a_second():
             contact.solve(pressure=1e7, progress=lambda finished, iteration, residual: started.set())
     # The second of the promise, from the signal on; signals are looked for ten times in it.
     assert time.monotonic() - sent[0] < 1.0
+
+
+def test_a_value_that_no_contact_has():
+    # The wave of 10 nm is closed everywhere at an approach of 10 nm.
+    size = ("1 um", "31.25 nm")
+    wave = tabor.heights(tabor.Wavy("10 nm", "1 um"), (64, 2), size)
+    contact = tabor.Contact(wave, size, contact_modulus="1 GPa")
+    with pytest.warns(tabor.NotConvergedWarning, match="did not converge: the surfaces cannot be closed further than full contact"):
+        step = contact.solve(approach="30 nm")
+    assert not step.converged and "full contact" in step.unreachable and step.approach is None
+    assert np.isnan(step.gap).all() and np.isnan(step.pressure).all() and np.isnan(step.displacement).all()
+    assert repr(step) == "<Step 1: no solution, the surfaces cannot be closed further than full contact>"
+    assert "no solution" in step._repr_html_()
+    assert contact.solve(approach="5 nm").unreachable is None

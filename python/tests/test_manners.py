@@ -1,5 +1,6 @@
 """What a user of NumPy expects: names of arguments in errors, pickles, forks, Ctrl-C, a light import."""
 
+import contextlib
 import copy
 import multiprocessing
 import pickle
@@ -8,6 +9,7 @@ import subprocess
 import sys
 import threading
 import time
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -142,7 +144,6 @@ def test_one_load_takes_no_time(times):
 # Which of its images is read, and that the map is tilted.
 @pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
 def test_files_bring_their_size(tmp_path):
-    from pathlib import Path
 
     path = Path(__file__).parents[2] / "tests" / "files" / "bruker_5.spm"
     surface = tabor.read_heights(path)
@@ -318,6 +319,44 @@ except KeyboardInterrupt:
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     assert float(done.stdout) < 1.0
+
+
+SLOW_STUDY = """
+import tabor
+scene = tabor.Scene({"grid": {"points": 1024, "size": "2 um"}, "solid": {"contact_modulus": "100 MPa"},
+    "surface": [{"kind": "self-affine", "hurst": 0.8, "rms_slope": 0.3, "longest": "2 um", "rolloff": "1 um", "shortest": "20 nm", "seed": 1}],
+    "adhesion": {"law": "maugis-dugdale", "work_of_adhesion": "50 mJ/m^2", "range": "2 nm"},
+    "loading": {"control": "pressure", "path": [1e6 * i for i in range(1, 60)]}})
+tabor.compare(scene, "compared")
+"""
+
+
+def _processes(folder):
+    """The processes that name a folder among their arguments; one that has ended has none."""
+    found = []
+    for place in Path("/proc").glob("[0-9]*/cmdline"):
+        with contextlib.suppress(OSError):
+            if folder.encode() in place.read_bytes():
+                found.append(place)
+    return found
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="lists processes by /proc")
+@pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGTERM, signal.SIGKILL])
+def test_a_study_ends_with_its_caller(sent, tmp_path):
+    folder = str(tmp_path / "compared")
+    study = subprocess.Popen([sys.executable, "-c", SLOW_STUDY.replace('"compared"', repr(folder))], stderr=subprocess.PIPE, text=True)
+    begun = time.monotonic()
+    while len(_processes(folder)) < 2 and time.monotonic() - begun < 60:
+        time.sleep(0.1)
+    time.sleep(1.0)
+    assert study.poll() is None, study.communicate()
+    study.send_signal(sent)
+    study.communicate(timeout=30)
+    gone = time.monotonic() + 10
+    while _processes(folder) and time.monotonic() < gone:
+        time.sleep(0.1)
+    assert _processes(folder) == []
 
 
 def test_warnings_point_to_the_line_of_the_user():

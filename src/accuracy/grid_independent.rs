@@ -13,7 +13,7 @@ use super::error::AccuracyError;
 use crate::grid::{Grid, signed_index};
 use crate::scene::{AdhesionMap, Boundary, GridScene, Scene, SurfacePart};
 use crate::surface::shapes::ApexPosition;
-use crate::surface::{Surface, SurfaceError, fourier};
+use crate::surface::{Surface, SurfaceError, Top, fourier};
 
 /// A scene whose surface is the same on every grid.
 #[derive(Clone, Debug)]
@@ -126,7 +126,7 @@ impl GridIndependentSurface {
             .iter()
             .copied()
             .fold(f64::NEG_INFINITY, f64::max);
-        surface.sphere_radius = None;
+        surface.top = Top::Unknown;
         Ok(surface)
     }
 }

@@ -9,7 +9,7 @@ use crate::law::Law;
 use crate::run::memory_check;
 use crate::scene::{Boundary, Control};
 use crate::study::{Cost, Memory, Plan};
-use crate::surface::Source;
+use crate::surface::{Source, Top};
 use crate::theory::{Sphere, hertz};
 use crate::units::format_si;
 
@@ -59,7 +59,12 @@ fn wider_than_grid(plan: &Plan) -> Option<String> {
     } else {
         0.0
     };
-    let sphere = Sphere::new(plan.outline.sphere_radius?, solid.contact_modulus, work).ok()?;
+    let sphere = Sphere::new(
+        plan.outline.top.sphere_radius()?,
+        solid.contact_modulus,
+        work,
+    )
+    .ok()?;
     let radius = match loading.control {
         Control::Force => {
             let attraction = 2.0 * PI * work * sphere.radius();
@@ -197,6 +202,9 @@ fn physics(plan: &Plan) -> Vec<String> {
             format_si(regime.radius, "m"),
             regime.name()
         ),
+        None if matches!(plan.outline.top, Top::Cone { .. }) => {
+            "regime        a cone: no radius, and no Tabor number".to_owned()
+        }
         None => "regime        flats and walls: no curvature, and no Tabor number".to_owned(),
     });
     lines

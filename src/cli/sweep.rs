@@ -32,7 +32,7 @@ pub(super) struct SweepArguments {
     #[arg(long, value_name = "i/n")]
     only: Option<Share>,
     /// Print one command for each case, and solve nothing
-    #[arg(long, conflicts_with_all = ["only", "merge"])]
+    #[arg(long, conflicts_with_all = ["only", "merge", "jobs"])]
     list: bool,
     /// Solve nothing: join what is finished, here and in these folders, into the tables and the picture
     #[arg(long, value_name = "DIR", num_args = 0.., conflicts_with = "only")]
@@ -51,9 +51,12 @@ pub(super) fn sweep(arguments: &SweepArguments) -> Result<(), Failure> {
     let path = folder_or_default(arguments.out.as_deref(), &arguments.path, "");
     if arguments.list {
         let set = &arguments.set;
-        let lines = study
-            .cases()
-            .map(|case| command(&arguments.path, &path, &case, study.count(), set) + "\n");
+        let threads = arguments.threads;
+        let threads = threads.map_or(String::new(), |count| format!(" --threads {count}"));
+        let lines = study.cases().map(|case| {
+            let command = command(&arguments.path, &path, &case, study.count(), set);
+            format!("{command}{threads}\n")
+        });
         return print(&lines.collect::<String>());
     }
     let interrupts = Interrupts::watch();

@@ -149,6 +149,19 @@ fn passed_over(setup: &Setup, end: &WalkEnd) -> Option<String> {
     ))
 }
 
+/// Growth of the tension in the last step before a contact lets go, over the tension, from which on it is said.
+const STEEP: f64 = 0.03;
+
+/// By how much, N, the tension grew in a step behind which the contact let go at once, as on a soft spring, where that is much of it: its greatest lies between
+/// the two.
+fn let_go_while_rising(rows: &[StepRow], step: usize) -> Option<f64> {
+    let [before, at, after] = rows.get(step.checked_sub(2)?..=step)? else {
+        return None;
+    };
+    let (grown, tension) = (before.force - at.force, -at.force);
+    (grown > STEEP * tension && -after.force < 0.5 * tension).then_some(grown)
+}
+
 /// A warning if the pull-off of a finished path is not known to the tolerance.
 fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
@@ -159,6 +172,14 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
             "the path turns back at its greatest tension, {} in step {step}, or begins there: the surfaces were not pressed beyond it, and pull-off may be greater; press further",
             newtons(force)
         )),
+        Tension::Passed { step, force } if let_go_while_rising(&end.rows, step).is_some() => {
+            let grown = let_go_while_rising(&end.rows, step).unwrap_or_default();
+            Some(format!(
+                "the tension grew by {} to {} in step {step}, and the contact let go in the next: its pull-off may be greater by as much; take shorter steps there",
+                newtons(grown),
+                newtons(force)
+            ))
+        }
         Tension::Holds { step, force } if end.rows[step - 1].state != State::Separated => {
             let what = match end.rows[step - 1].state {
                 State::Contact => "the contact",

@@ -28,7 +28,7 @@ impl CutEdges {
         }
         let heights = surface.heights.as_slice();
         let (lowest, highest) = (share.least_of(heights), share.greatest_of(heights));
-        let mean = match surface.sphere_radius {
+        let mean = match surface.top.sphere_radius() {
             Some(_) => highest,
             None => highest + mean_in_the_middle(heights, highest, &surface.grid, share),
         };
@@ -106,6 +106,7 @@ pub(super) fn edge_warning(step: &FinishedStep, said: &[String]) -> Option<&'sta
 mod tests {
     use super::*;
     use crate::backend::Shape;
+    use crate::surface::Top;
 
     fn cut([nx, ny]: [usize; 2], sphere: bool, height: impl Fn(f64, f64) -> f64) -> [bool; 4] {
         let [x0, y0] = [nx, ny].map(|points| 0.5 * (points - 1) as f64);
@@ -116,7 +117,11 @@ mod tests {
             grid: Grid::new([nx, ny], [nx as f64, ny as f64]),
             heights: heights.into(),
             highest: 0.0,
-            sphere_radius: sphere.then_some(1.0),
+            top: if sphere {
+                Top::Sphere(1.0)
+            } else {
+                Top::Unknown
+            },
             adhesion_map: None,
             warnings: Vec::new(),
         };

@@ -26,7 +26,8 @@ pub(super) fn warnings(plan: &Plan) -> Vec<String> {
     let side = grid.lx.max(grid.ly);
     let tip = plan
         .outline
-        .sphere_radius
+        .top
+        .sphere_radius()
         .filter(|_| plan.effects.spring(scene).is_some());
     let slope = plan.outline.moments.rms_slope();
     let modulus = scene.solid.contact_modulus;

@@ -2,7 +2,7 @@
 
 use crate::law::Law;
 use crate::scene::{AdhesionScene, Range, Scene, Treatment};
-use crate::surface::Outline;
+use crate::surface::{Outline, Top};
 
 /// Width of the automatic taper over `sigma0 dx/E*`, the opening of a pixel under the peak tension.
 ///
@@ -49,10 +49,10 @@ pub(super) fn law_of(scene: &Scene, pixel: f64, strongest: f64) -> Law {
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub struct Regime {
-    /// Radius of the sphere, else 2 over the rms curvature, m; infinite for a flat surface.
+    /// Radius of the sphere or of the crests of waves, else 2 over the rms curvature, m; infinite for a flat surface and a cone.
     pub radius: f64,
-    /// Tabor number with `eps = 1.0264 w / peak tension`; `None` where no curvature is meant: of flat surfaces and
-    /// of flat pillars and punches.
+    /// Tabor number with `eps = 1.0264 w / peak tension`; `None` where no curvature is meant: of flat surfaces, of
+    /// flat pillars and punches, and of cones.
     pub tabor: Option<f64>,
     /// chi, grid spacing over the length of the cohesive zone: `sigma0 dx / (E* h0)`, for Lennard-Jones `w dx / (E* eps^2)`.
     pub chi: f64,
@@ -75,8 +75,11 @@ impl Regime {
         let pixel = outline.grid.longer_pixel();
         let strongest = outline.map.map_or(1.0, |map| map.largest);
         law.is_adhesive().then(|| {
-            let curvature = outline.moments.rms_curvature();
-            let radius = outline.sphere_radius.unwrap_or(2.0 / curvature);
+            let radius = match outline.top {
+                Top::Sphere(radius) | Top::Crests(radius) | Top::Ridges(radius) => radius,
+                Top::Cone { .. } => f64::INFINITY,
+                Top::Unknown => 2.0 / outline.moments.rms_curvature(),
+            };
             // A map is judged where it attracts most.
             let work = strongest * law.work_of_adhesion();
             let peak = strongest * law.peak_tension();

@@ -57,7 +57,7 @@ impl Setup {
             grid,
             moments: statistics.moments,
             source: Source::Heights,
-            sphere_radius: surface.sphere_radius,
+            top: surface.top,
             has_flats: has_flats(heights, &share),
             map: surface
                 .adhesion_map

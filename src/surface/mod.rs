@@ -35,6 +35,7 @@ pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
+mod top;
 
 pub use adhesion_map::MapError;
 pub(crate) use by_rows::points_before_resampling;
@@ -60,6 +61,8 @@ use file::HeightMap;
 use shapes::ApexPosition;
 pub use statistics::Statistics;
 use statistics::whole;
+#[doc(hidden)]
+pub use top::Top;
 
 /// Most points of a grid, 131072 x 131072; where a length has 32 bits, 2^30.
 #[doc(hidden)]
@@ -77,13 +80,13 @@ pub struct Surface {
     /// Heights, m, shape `[ny, nx]`, row-major, positive towards the solid.
     /// Whoever needs them shares them.
     pub heights: SharedValues,
-    /// Height from which the approach counts, m: the true apex if the surface is exactly one sphere
+    /// Height from which the approach counts, m: the true apex if the surface is exactly a sphere
     /// or one cone, else the highest sampled point.
     #[doc(hidden)]
     pub highest: f64,
-    /// Radius, m, if the surface is exactly one sphere.
+    /// Where it touches first, as far as its parts say.
     #[doc(hidden)]
-    pub sphere_radius: Option<f64>,
+    pub top: Top,
     /// Factors on the tension of the scene's law, shape `[ny, nx]`; `None` without a map.
     pub adhesion_map: Option<Vec<f64>>,
     /// Warnings for the user, one sentence each, naming the part.
@@ -168,18 +171,14 @@ impl Surface {
             });
         }
         let sampled = share.greatest_of(&heights);
-        let single = single_part(parts);
         Ok(Surface {
             grid,
             heights,
-            highest: match single {
-                Some(SurfacePart::Sphere { .. } | SurfacePart::Cone { .. }) => 0.0,
+            highest: match Top::of(parts) {
+                Top::Sphere(_) | Top::Cone { .. } => 0.0,
                 _ => sampled,
             },
-            sphere_radius: match single {
-                Some(SurfacePart::Sphere { radius, .. }) => Some(*radius),
-                _ => None,
-            },
+            top: Top::of(parts),
             adhesion_map: None,
             warnings,
         })

@@ -2,13 +2,14 @@
 //!
 //! `tabor check` of a large scene answers from its spectra and shapes; only height files are read.
 
+use std::borrow::Cow;
 use std::f64::consts::PI;
 
 use super::error::{PartError, SurfaceError};
 use super::shapes::{self, ApexPosition};
 use super::spectrum::SpectralMoments;
 use super::statistics::whole;
-use super::{Surface, adhesion_map, check_grid, part_error, self_affine, single_part};
+use super::{Surface, Top, adhesion_map, check_grid, part_error, self_affine, single_part};
 use crate::backend::Share;
 use crate::grid::Grid;
 use crate::scene::{AdhesionMap, Boundary, PatternKind, Scene, SurfacePart};
@@ -44,8 +45,8 @@ pub struct Outline {
     pub moments: SpectralMoments,
     /// How they were found.
     pub source: Source,
-    /// Radius, m, if the surface is exactly one sphere.
-    pub sphere_radius: Option<f64>,
+    /// Where it touches first, as far as its parts say.
+    pub top: Top,
     /// Whether the surface consists of flats, as of pillars and punches, so that no curvature is meant.
     pub has_flats: bool,
     /// Summary of the adhesion map; `None` without one.
@@ -143,7 +144,7 @@ impl Outline {
     /// # Errors
     /// As [`Surface::build`], except for overflow of the sum of the parts.
     pub fn from_scene(scene: &Scene) -> Result<Outline, SurfaceError> {
-        let parts = &scene.surfaces;
+        let parts = &*joined(&scene.surfaces);
         if parts
             .iter()
             .any(|part| matches!(part, SurfacePart::File(_) | SurfacePart::Heights(_)))
@@ -198,10 +199,7 @@ impl Outline {
             grid,
             moments: SpectralMoments::from_isotropic(sums),
             source,
-            sphere_radius: match single {
-                Some(SurfacePart::Sphere { radius, .. }) => Some(*radius),
-                _ => None,
-            },
+            top: Top::of(parts),
             has_flats: false,
             map: match scene
                 .adhesion
@@ -231,7 +229,7 @@ impl Outline {
             grid: surface.grid,
             moments: surface.statistics(boundary).moments,
             source: Source::Heights,
-            sphere_radius: surface.sphere_radius,
+            top: surface.top,
             has_flats: has_flats(&surface.heights, &whole(&surface.grid)),
             map: surface
                 .adhesion_map
@@ -239,6 +237,20 @@ impl Outline {
                 .map(|map| MapOutline::from_factors(map, &whole(&surface.grid))),
             warnings: surface.warnings.clone(),
         }
+    }
+}
+
+/// The parts, with spheres about one centre as the one sphere that they are.
+fn joined(parts: &[SurfacePart]) -> Cow<'_, [SurfacePart]> {
+    let mut shaped = parts
+        .iter()
+        .filter(|part| !matches!(part, SurfacePart::Flat));
+    match (Top::of(parts), shaped.next(), shaped.next()) {
+        (Top::Sphere(radius), Some(SurfacePart::Sphere { centre, .. }), Some(_)) => {
+            let centre = *centre;
+            vec![SurfacePart::Sphere { radius, centre }].into()
+        }
+        _ => parts.into(),
     }
 }
 

@@ -100,6 +100,119 @@ loading = { control = "force", path = ["2 uN"] }
     assert!(flat("free").contains("contact edge"), "{}", flat("free"));
 }
 
+/// What is attracted about a cone is as wide as its angle says, and along a straight crest as its curvature there does, whatever the cell. A pull-off of the
+/// rigid limit is asserted of both: where the apex lies between points it is far off, and is said to be.
+fn attraction_about_cones_and_crests_is_warned_of() {
+    let folder = scene(
+        r#"
+grid = { points = 80, size = "80 nm", boundary = "free" }
+solid = { contact_modulus = "1 TPa" }
+surface = [{ kind = "cone", half_angle = 80 }]
+adhesion = { law = "maugis-dugdale", work_of_adhesion = "50 mJ/m^2", range = "1 nm" }
+loading = { control = "force", path = ["50 nN", 0], until = "apart" }
+output = { images = [] }
+"#,
+    );
+    // Of the pull-off of the rigid limit, the peak tension times the disc, and what is said.
+    let of_cone = |folder_of_run: &str, more: &[&str]| {
+        let call = ["run", "scene.toml", "--quiet", "--out", folder_of_run];
+        let output = tabor(folder.path(), &[&call, more].concat());
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let disc = PI * (1e-9 * 80_f64.to_radians().tan()).powi(2);
+        (
+            summary(&folder.path().join(folder_of_run))["pull_off_force"]
+                .as_f64()
+                .expect("a pull-off")
+                / (50e6 * disc),
+            errors(&output),
+        )
+    };
+    let (between, said) = of_cone("between", &[]);
+    assert!(between > 1.2, "{between}");
+    assert!(
+        said.contains("10 % cannot be reached on this grid: a stiff cone is attracted over a disc about 11.3 pixels wide")
+            && said.contains("put it on one by centre"),
+        "{said}"
+    );
+    let on_a_point = ["--set", "surface.0.centre=[\"40 nm\", \"40 nm\"]"];
+    let (on, said) = of_cone("on", &on_a_point);
+    assert!((on - 1.0).abs() < 0.07, "{on}");
+    assert!(!said.contains("is attracted over"), "{said}");
+    let check = |more: &[&str]| {
+        let call = [&["check", "scene.toml"], more].concat();
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        (
+            String::from_utf8_lossy(&output.stdout).into_owned(),
+            errors(&output),
+        )
+    };
+    let (regime, _) = check(&on_a_point);
+    assert!(regime.contains("a cone: no radius"), "{regime}");
+    // 1/(A k^2) is 5.066 um, and the strip 2 sqrt(2 R range).
+    let wave =
+        "surface=[{ kind = \"wavy\", amplitude = \"20 nm\", wavelength = [\"2 um\", \"inf\"] }]";
+    let cell = [
+        "--set",
+        "grid={ points = [80, 4], size = [\"4 um\", \"200 nm\"] }",
+        "--set",
+        wave,
+    ];
+    let (regime, said) = check(&cell);
+    assert!(regime.contains("radius 5.066"), "{regime}");
+    assert!(
+        said.contains("10 % cannot be reached on this grid: a stiff crest is attracted over a strip about 4.0 pixels wide"),
+        "{said}"
+    );
+    let round = wave.replace("\"inf\"", "\"2 um\"");
+    let (_, said) = check(&[
+        "--set",
+        "grid={ points = 80, size = \"4 um\" }",
+        "--set",
+        &round,
+    ]);
+    assert!(
+        said.contains("a stiff crest is attracted over a disc about 4.0 pixels wide"),
+        "{said}"
+    );
+    // Two spheres about one centre are one.
+    let spheres = |count: usize, radius: &str| {
+        let sphere = format!("{{ kind = \"sphere\", radius = \"{radius}\" }}");
+        let parts = format!("surface=[{}]", vec![sphere; count].join(", "));
+        check(&["--set", "grid.size=\"2 um\"", "--set", &parts])
+    };
+    assert_eq!(spheres(2, "20 um"), spheres(1, "10 um"));
+}
+
+/// Beside loads a million times as large a load is lost in the tolerance of single precision; the column repeats what is prescribed.
+fn a_load_that_the_pressures_miss_by_much_of_itself_is_warned_of() {
+    let folder = scene(
+        r#"
+grid = { points = 64, size = "10 um" }
+solid = { contact_modulus = "1 GPa" }
+surface = [{ kind = "self-affine", hurst = 0.8, rms_height = "10 nm", longest = "10 um", rolloff = "5 um", shortest = "1.25 um", seed = 1 }]
+adhesion = { law = "maugis-dugdale", work_of_adhesion = "50 mJ/m^2", range = "5.1 nm" }
+loading = { control = "pressure", path = ["3 Pa", "3 MPa"] }
+output = { images = [] }
+"#,
+    );
+    for (precision, is_missed) in [("single", true), ("double", false)] {
+        let call = [
+            "run",
+            "scene.toml",
+            "--out",
+            precision,
+            "--precision",
+            precision,
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let said = errors(&output);
+        let words = "the pressures do not balance the prescribed mean pressure";
+        assert_eq!(said.contains(words), is_missed, "{precision}: {said}");
+    }
+}
+
 /// The contact grows with the load, as it does at a tolerance that resolves the load.
 fn a_load_is_not_lost_in_the_tolerance_of_a_strong_law() {
     let folder = scene(&format!(
@@ -393,6 +506,8 @@ tests![
     a_contact_at_the_hardness_is_as_wide_as_its_load_needs,
     a_spring_is_compared_with_a_punch_as_wide_as_the_grid,
     attraction_over_few_pixels_is_warned_of,
+    attraction_about_cones_and_crests_is_warned_of,
+    a_load_that_the_pressures_miss_by_much_of_itself_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,

@@ -9,7 +9,7 @@ use tabor::scene::{
     Boundary, Detrend, Edges, Fill, GridScene, HeightFileScene, Roughness, SelfAffineScene,
     SurfacePart,
 };
-use tabor::surface::{Surface, SurfaceError};
+use tabor::surface::{Surface, SurfaceError, Top};
 
 /// A .npy file of version 1 with this description and these bytes.
 fn npy(description: &str, bytes: &[u8]) -> Vec<u8> {
@@ -326,10 +326,10 @@ fn units_scales_trends_holes_and_sums() {
         centre: Some([0.0, 0.0]),
     };
     let sum = Surface::from_parts(&grid(None), &[SurfacePart::File(part), sphere.clone()]).unwrap();
-    assert_eq!(sum.sphere_radius, None);
+    assert_eq!(sum.top, Top::Unknown);
     assert_relative_eq!(sum.heights[1], -0.5e-6, max_relative = 1e-12);
     let alone = Surface::from_parts(&grid(Some([4, 4])), &[SurfacePart::Flat, sphere]).unwrap();
-    assert_eq!((alone.sphere_radius, alone.highest), (Some(1e-6), 0.0));
+    assert_eq!((alone.top, alone.highest), (Top::Sphere(1e-6), 0.0));
 }
 
 #[test]

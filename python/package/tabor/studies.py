@@ -178,7 +178,7 @@ def sweep(
 def _share(share: Any) -> str:
     """A share (i, n) in the words of the command line."""
     numbers = list(share) if isinstance(share, (tuple, list)) else []
-    if len(numbers) != 2 or not all(isinstance(number, (int, np.integer)) for number in numbers) or not 1 <= numbers[0] <= numbers[1]:
+    if len(numbers) != 2 or not all(isinstance(number, (int, np.integer)) and not isinstance(number, bool) for number in numbers) or not 1 <= numbers[0] <= numbers[1]:
         raise SceneError(f"share: (i, n) is expected, as in (2, 8) for the second of eight, not {share!r}")
     return f"{numbers[0]}/{numbers[1]}"
 

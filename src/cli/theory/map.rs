@@ -13,7 +13,7 @@ use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Regime, maugis_parameter, 
 
 pub(super) const TABOR_MAP: Model = Model {
     name: "tabor-map",
-    about: "Tabor and Maugis parameters of a sphere and the theory that holds, a row for each law",
+    about: "Tabor and Maugis parameters of a sphere, Maugis' pull-off and the theory that holds, a row for each law",
     source: "Tabor 1977; Maugis 1992; Johnson & Greenwood 1997, doi:10.1006/jcis.1997.4984",
     parameters: &[ADHESIVE_SPHERE, &[RANGE]],
     columns: "law, tabor_parameter, maugis_parameter, peak_tension [Pa], pull_off_force [N], advice",
@@ -47,6 +47,10 @@ fn map_table(values: &Values) -> Result<Table, Failure> {
             advice(regime(mu)?).into(),
         ]);
     }
+    table.notes.push(
+        "pull_off_force is that of Maugis' theory at the peak tension; that of the law itself is up to 6 % more where it has no end (lennard-jones, cubic, exponential), which lennard-jones-sphere and the full field give"
+            .to_owned(),
+    );
     Ok(table)
 }
 

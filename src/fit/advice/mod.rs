@@ -106,7 +106,8 @@ impl Advice {
             Some(Beyond {
                 feature: classifier.features[at].clone(),
                 value: plain(at, features[at]?),
-                range: range.map(|end| plain(at, end)),
+                // No plain value is negative: an end below 0 is the rounding of 0.
+                range: range.map(|end| plain(at, end).max(0.0)),
             })
         });
         Advice {
