@@ -144,7 +144,6 @@ def test_one_load_takes_no_time(times):
 # Which of its images is read, and that the map is tilted.
 @pytest.mark.filterwarnings("ignore::tabor.TaborWarning")
 def test_files_bring_their_size(tmp_path):
-
     path = Path(__file__).parents[2] / "tests" / "files" / "bruker_5.spm"
     surface = tabor.read_heights(path)
     for rough in (tabor.Contact(str(path), contact_modulus="1 GPa"), tabor.Contact(path, contact_modulus="1 GPa")):
