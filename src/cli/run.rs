@@ -152,7 +152,9 @@ fn remedy(unreachable: Option<Unreachable>, stalled: bool, is_double: bool) -> S
             "the iteration stalls there: name smaller steps, or ask for precision = \"double\" or a larger tolerance"
         }
         None => "allow more max_iterations, or take smaller steps",
-        Some(why @ Unreachable::Unmeasured) => return format!("{why}: allow more max_iterations"),
+        Some(Unreachable::Unmeasured) => {
+            "the contact is solved, and its [conductance] or [leakage] is not: allow more max_iterations"
+        }
         Some(why) => return format!("{why}: end the path earlier"),
     };
     remedy.to_owned()

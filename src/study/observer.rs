@@ -95,9 +95,7 @@ impl fmt::Display for Unreachable {
         out.write_str(match self {
             Unreachable::BeyondClosure => "the surfaces cannot be closed further than full contact",
             Unreachable::BeyondHardness => "the solid flows everywhere before it bears this load",
-            Unreachable::Unmeasured => {
-                "the contact is solved, and its [conductance] or [leakage] is not"
-            }
+            Unreachable::Unmeasured => "the contact is solved, and what passes through it is not",
         })
     }
 }

@@ -5,7 +5,7 @@ use super::error::{FileError, SurfaceError};
 use super::file::{self, HeightMap};
 use super::formats::{self, Numbers, Opening};
 use super::matrix::{Map, Matrix, PASSED, Size};
-use super::prepare;
+use super::{prepare, profile};
 use crate::backend::Share;
 use crate::backend::ranks::{RankError, Ranks, agree};
 use crate::scene::{Boundary, Edges, HeightFileScene};
@@ -73,7 +73,7 @@ impl Reading<'_> {
                 let opened = self.of_first(ranks, || {
                     let map = formats::open_map(&self.scene.path, Opening::ByRows)?;
                     if self.scene.preparation.profile {
-                        return Ok(prepare::to_profile(map)?.into());
+                        return Ok(profile::to_profile(map)?.into());
                     }
                     Ok(map)
                 })?;

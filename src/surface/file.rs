@@ -4,7 +4,7 @@ use super::error::FileError;
 use super::formats::Opening;
 use super::matrix::{Matrix, Size};
 use super::statistics::edge_jumps;
-use super::{MOST_POINTS, detrend, fill, formats, prepare, resample};
+use super::{MOST_POINTS, detrend, fill, formats, outliers, prepare, profile, resample};
 use crate::backend::{BackendError, Shape, Share};
 use crate::grid::Grid;
 use crate::scene::{Boundary, Detrend, Edges, Fill, HeightFileScene};
@@ -136,7 +136,7 @@ pub(super) fn read(
 ) -> Result<HeightMap, FileError> {
     let map = formats::open_map(&scene.path, Opening::Whole)?;
     let matrix = if scene.preparation.profile {
-        prepare::to_profile(map)?
+        profile::to_profile(map)?
     } else {
         let matrix = map.read()?;
         expect_map(points, [matrix.columns, matrix.rows])?;
@@ -222,7 +222,7 @@ pub(super) fn heights_of(
         && !matches!(scene.detrend, Detrend::Plane | Detrend::Quadratic);
     check_missing(&heights, share, scene.fill, &mut warnings)?;
     if let Some(times) = asked.outliers {
-        let found = prepare::drop_outliers(&mut heights, share, times);
+        let found = outliers::drop_outliers(&mut heights, share, times);
         let all = points[0] * points[1];
         if found.count > 0 {
             warnings.push(format!(

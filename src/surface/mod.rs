@@ -24,8 +24,10 @@ pub mod fit;
 mod formats;
 pub(crate) mod fourier;
 mod matrix;
+mod outliers;
 mod outline;
 mod prepare;
+mod profile;
 mod resample;
 #[doc(hidden)]
 pub mod roughness;
@@ -196,15 +198,6 @@ fn part_error(index: usize, problem: PartError) -> SurfaceError {
         part: index + 1,
         problem: Box::new(problem),
     }
-}
-
-/// The one part that is not flat, if there is exactly one.
-fn single_part(parts: &[SurfacePart]) -> Option<&SurfacePart> {
-    let mut shaped = parts
-        .iter()
-        .filter(|part| !matches!(part, SurfacePart::Flat));
-    let first = shaped.next();
-    if shaped.next().is_some() { None } else { first }
 }
 
 /// Refuses numbers of points and sizes outside the limits of a grid.

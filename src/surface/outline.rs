@@ -9,7 +9,7 @@ use super::error::{PartError, SurfaceError};
 use super::shapes::{self, ApexPosition};
 use super::spectrum::SpectralMoments;
 use super::statistics::whole;
-use super::{Surface, Top, adhesion_map, check_grid, part_error, self_affine, single_part};
+use super::{Surface, Top, adhesion_map, check_grid, part_error, self_affine};
 use crate::backend::Share;
 use crate::grid::Grid;
 use crate::scene::{AdhesionMap, Boundary, PatternKind, Scene, SurfacePart};
@@ -238,6 +238,15 @@ impl Outline {
             warnings: surface.warnings.clone(),
         }
     }
+}
+
+/// The one part that is not flat, if there is exactly one.
+fn single_part(parts: &[SurfacePart]) -> Option<&SurfacePart> {
+    let mut shaped = parts
+        .iter()
+        .filter(|part| !matches!(part, SurfacePart::Flat));
+    let first = shaped.next();
+    if shaped.next().is_some() { None } else { first }
 }
 
 /// The parts, with spheres about one centre as the one sphere that they are.
