@@ -92,7 +92,8 @@ def test_ten_thousand_elements():
         (lambda: theory.effects.relaxation(E, E, 1.0, -1.0), "time"),
         (lambda: theory.effects.creep(E, E, 1.0, -1.0), "time"),
         (lambda: theory.table("jkr", radius="1 um"), "contact_modulus"),
-        (lambda: theory.table("kjr"), "did you mean"),
+        (lambda: theory.table("kjr"), r"did you mean jkr\? models\(\) lists them"),
+        (lambda: theory.table("jkr", radius="1 um", contact_modulus=1e9, work=1), r"(?s)no parameter work; did you mean work_of_adhesion.*work_of_adhesion=.50 mJ/m"),
     ],
 )
 def test_mistakes_name_the_argument(call, words):

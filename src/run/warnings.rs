@@ -150,7 +150,7 @@ fn passed_over(setup: &Setup, end: &WalkEnd) -> Option<String> {
 }
 
 /// Growth of the tension in the last step before a contact lets go, over the tension, from which on it is said.
-const STEEP: f64 = 0.03;
+const STEEP: f64 = 0.05;
 
 /// By how much, N, the tension grew in a step behind which the contact let go at once, as on a soft spring, where that is much of it: its greatest lies between
 /// the two.

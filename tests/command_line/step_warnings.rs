@@ -258,6 +258,45 @@ fn a_contact_that_is_wide_for_its_sphere_is_warned_of_once() {
     assert_eq!(said.matches("the radius of contact").count(), 1, "{said}");
 }
 
+/// On a soft spring the contact lets go at its greatest tension: steps of a third of it may end far below, and say so; those of a
+/// fiftieth are within it.
+fn a_contact_that_lets_go_while_its_tension_grows_is_warned_of() {
+    let folder = scene(
+        r#"
+grid = { points = 32, size = "1 um" }
+solid = { contact_modulus = "1 GPa" }
+surface = [{ kind = "self-affine", hurst = 0.8, rms_height = "5 nm", longest = "1 um", rolloff = "0.5 um", shortest = "0.2 um", seed = 3 }]
+adhesion = { law = "maugis-dugdale", work_of_adhesion = "20 mJ/m^2", range = "4 nm" }
+loading = { control = "approach", spring = 0.5, path = ["15 nm"] }
+output = { images = [] }
+"#,
+    );
+    let [[long, said], [short, unsaid]] = [("long", -100), ("short", -5)].map(|(name, step)| {
+        let places = (0..).map(|i| i * step).take_while(|place| *place >= -400);
+        let places: Vec<String> = places.map(|place| format!("{place}e-9")).collect();
+        let path = format!("loading.path=[15e-9, {}]", places.join(", "));
+        let call = [
+            "run",
+            "scene.toml",
+            "--quiet",
+            "--out",
+            name,
+            "--set",
+            &path,
+        ];
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        let found = &summary(&folder.path().join(name))["pull_off_force"];
+        [found.to_string(), errors(&output)]
+    });
+    let words = "and the contact let go in the next: its pull-off may be greater by as much";
+    assert!(said.contains(words), "{said}");
+    assert!(!unsaid.contains(words), "{unsaid}");
+    let [long, short] = [long, short].map(|found| found.parse::<f64>().expect("a pull-off"));
+    // What was said covers the difference: half of the tension grew in the last of the long steps.
+    assert!(long < short && short < 1.5 * long, "{long} {short}");
+}
+
 /// Crests on few points: as one more of them touches, its attraction ends, and the net load jumps past the prescribed one: by 2 % at least
 /// on one grid, and on a finer one from 3 % below to 0.1 % above it, where the nearer side is the answer.
 fn a_net_load_that_jumps_past_the_prescribed_one_is_warned_of() {
@@ -509,6 +548,7 @@ tests![
     attraction_about_cones_and_crests_is_warned_of,
     a_load_that_the_pressures_miss_by_much_of_itself_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
+    a_contact_that_lets_go_while_its_tension_grows_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
     a_contact_that_is_wide_for_its_sphere_is_warned_of_once,

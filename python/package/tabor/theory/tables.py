@@ -82,7 +82,17 @@ def table(model: str, parameters: Mapping[str, Any] | None = None, /, **more: An
             words.append(f"--{name}={number}{unit}")
         except (TypeError, ValueError):
             raise TheoryError(f"{name}: {value!r} is no number and no text with a unit") from None
-    return Table(_tabor.theory_table(words))
+    try:
+        return Table(_tabor.theory_table(words))
+    except TheoryError as error:
+        raise TheoryError(_of_parameters(str(error))) from None
+
+
+def _of_parameters(message: str) -> str:
+    """A message about options of the command line as one about parameters."""
+    message = re.sub(r'--([a-z_]+) ("[^"]*"|[-+0-9.]\S*)', r"\1=\2", message)
+    message = re.sub(r'"?--([a-z_]+)"?', r"\1", message)
+    return message.replace("tabor theory lists the models", "models() lists them")
 
 
 def models() -> str:
