@@ -1,10 +1,10 @@
 //! `[adhesion]`: a cohesive law acts across the gap.
 
+use super::attracted_pixels;
 use crate::law::Law;
 use crate::scene::{Boundary, Range, Scene, Treatment};
 use crate::study::{Column, Evaluation, Hooks, Plan, Regime, Setup};
 use crate::surface::Top;
-use crate::surface::shapes::ApexPosition;
 use crate::units::format_si;
 
 /// Values of chi (grid spacing over the length of the cohesive zone) above which the pixels influence the
@@ -37,25 +37,7 @@ const LEAST_TAPER: f64 = 0.2;
 const STILL_SMOOTH: f64 = 3.0;
 const WIDE_TAPER: f64 = 1.5;
 /// Tabor number below which a contact shrinks to a point before pull-off, so that it has no width.
-const LEAST_TABOR: f64 = 0.8;
-/// Width in pixels of the disc over which a sphere is attracted where it touches, below which pixels change pull-off by 5 % and by 10 %,
-/// measured at Tabor numbers of 0.03 to 0.7: of a law that ends suddenly, and of one that fades.
-const FEW_ATTRACTED: [f64; 2] = [10.0, 6.0];
-const LOST_ATTRACTED: [f64; 2] = [8.0, 5.0];
-/// The same of the strip along a straight crest, whose pixels come and go in whole lines.
-const FEW_ALONG: [f64; 2] = [20.0, 4.0];
-const LOST_ALONG: [f64; 2] = [10.0, 3.0];
-/// The same of the disc of a cone whose apex lies between points of the grid, and of one on a point.
-const FEW_ABOUT: [f64; 2] = [60.0, 5.0];
-const LOST_ABOUT: [f64; 2] = [30.0, 4.0];
-/// Distance in pixels up to which an apex lies on a point of the grid.
-const ON_A_POINT: f64 = 1e-6;
-/// Least opening of the flanks by the attraction of a cone, `w tan(half_angle) / E*`, over the range at which it widens the disc.
-const SOFT_CONE: f64 = 0.3;
-/// The same of the summits of a rough surface, below which pull-off is up to 49 % off, and up to 170 %.
-const FEW_SUMMITS: f64 = 5.0;
-const LOST_SUMMITS: f64 = 2.0;
-
+pub(super) const LEAST_TABOR: f64 = 0.8;
 /// The adhesion of the examples of other effects.
 pub(super) const EXAMPLE: (&str, &str) = (
     "adhesion",
@@ -144,7 +126,7 @@ pub(super) fn warnings_of_pixels(plan: &Plan) -> Vec<String> {
             format_si(plan.law.range(), "m")
         ));
     }
-    warnings.extend(warning_of_small_reach(plan, regime));
+    warnings.extend(attracted_pixels::warning(plan, regime));
     if adhesion.treatment == Treatment::Dmt || is_plate(plan) {
         return warnings;
     }
@@ -210,14 +192,11 @@ fn is_plate(plan: &Plan) -> bool {
     grid.boundary == Boundary::Periodic && map.is_none() && plan.outline.moments.rms_height() == 0.0
 }
 
-/// The rms height over the range, of surfaces that are no sphere.
+/// The rms height over the range, of surfaces that are no sphere and no cone: these peel, however much of them is on the grid.
 fn roughness(plan: &Plan) -> Option<f64> {
     let roughness = plan.outline.moments.rms_height() / plan.law.range();
-    plan.outline
-        .top
-        .sphere_radius()
-        .is_none()
-        .then_some(roughness)
+    let peels = matches!(plan.outline.top, Top::Sphere(_) | Top::Cone { .. });
+    (!peels).then_some(roughness)
 }
 
 /// The same of surfaces that part as a whole.
@@ -274,99 +253,4 @@ fn warning_of_small_contact(plan: &Plan, regime: Regime) -> Option<String> {
     Some(format!(
         "{strength}the contact at pull-off is about {pixels:.1} pixels wide: pull-off is about 5 % off at 10 pixels and 12 % at 5; take more points"
     ))
-}
-
-/// The warning for stiff bodies whose attraction reaches over a few pixels where they touch, however wide the cohesive zone of a crack is.
-fn warning_of_small_reach(plan: &Plan, regime: Regime) -> Option<String> {
-    if let Top::Cone { half_angle, centre } = plan.outline.top {
-        return warning_of_small_apex(plan, half_angle, centre);
-    }
-    regime.tabor.filter(|tabor| *tabor < LEAST_TABOR)?;
-    let reach = 2.0 * (2.0 * regime.radius * plan.law.range()).sqrt();
-    let pixels = reach / plan.outline.grid.longer_pixel();
-    let fades = usize::from(!matches!(plan.law, Law::MaugisDugdale(_)));
-    let measured = |of: &str| {
-        format!(
-            "a stiff {of} is attracted over a disc about {pixels:.1} pixels wide where it touches (2 sqrt(2 R range))"
-        )
-    };
-    let beyond = "10 % cannot be reached on this grid";
-    if plan.outline.top == Top::Unknown {
-        let text = format!(
-            "{}: pull-off is up to 14 % off at 5 pixels, 49 % at 4, 53 % at 3, and 2 to 8 times too high at 1; take more points",
-            measured("summit")
-        );
-        return if pixels < LOST_SUMMITS {
-            Some(format!("{beyond}: {text}"))
-        } else {
-            (pixels < FEW_SUMMITS).then_some(text)
-        };
-    }
-    let (measured, errors, few, lost) = match plan.outline.top {
-        Top::Ridges(_) => (
-            measured("crest").replace("a disc", "a strip"),
-            [
-                "5 % off at 20 pixels, 10 % at 10, 25 % at 4",
-                "1 % off at 4 pixels",
-            ],
-            FEW_ALONG,
-            LOST_ALONG,
-        ),
-        top => (
-            measured(match top {
-                Top::Crests(_) => "crest",
-                _ => "sphere",
-            }),
-            [
-                "5 % off at 10 pixels, 10 % at 8, 20 % at 5",
-                "6 % off at 6 pixels, 13 % at 4",
-            ],
-            FEW_ATTRACTED,
-            LOST_ATTRACTED,
-        ),
-    };
-    let text = format!(
-        "{measured}: pull-off is up to {} and several times too high below 2; take more points",
-        errors[fades]
-    );
-    if pixels < lost[fades] {
-        Some(format!("{beyond}: {text}"))
-    } else {
-        (pixels < few[fades]).then_some(text)
-    }
-}
-
-/// The same of the apex of a cone, whose highest point on the grid lies below it where it is between the points.
-fn warning_of_small_apex(plan: &Plan, half_angle: f64, centre: Option<[f64; 2]>) -> Option<String> {
-    let (grid, range) = (plan.outline.grid, plan.law.range());
-    let slope = half_angle.tan();
-    let opening = plan.law.work_of_adhesion() * slope / plan.scene.solid.contact_modulus;
-    if opening > SOFT_CONE * range {
-        return None;
-    }
-    let pixels = 2.0 * range * slope / grid.longer_pixel();
-    let place = ApexPosition {
-        centre,
-        boundary: plan.scene.grid.boundary,
-        first_row: 0,
-    };
-    let [x, y] = place.centre_on(&grid);
-    let off = [x / grid.dx(), y / grid.dy()].map(|at| (at - at.round()).abs());
-    let is_between = off[0].max(off[1]) > ON_A_POINT;
-    let (kind, errors, remedy) = match is_between {
-        true => (
-            0,
-            "11 % too high at 30 pixels, 20 % at 15, 45 % at 7 and twice as high at 3, as the apex lies between the points of the grid",
-            "put it on one by centre, whole numbers of pixels from the first point, or take more points",
-        ),
-        false => (1, "7 % off at 5 pixels and 30 % at 3", "take more points"),
-    };
-    let text = format!(
-        "a stiff cone is attracted over a disc about {pixels:.1} pixels wide where it touches (2 range tan(half_angle)): pull-off is up to {errors}; {remedy}"
-    );
-    if pixels < LOST_ABOUT[kind] {
-        Some(format!("10 % cannot be reached on this grid: {text}"))
-    } else {
-        (pixels < FEW_ABOUT[kind]).then_some(text)
-    }
 }

@@ -11,6 +11,8 @@ use crate::study::{
     Attempt, Evaluation, Hooks, HostBytes, Plan, Setup, Sizes, SolvedStep, held_across, separated,
 };
 
+/// Tabor number beyond which pull-off is more than a fifth off (a sphere at 1.3: 1.21 of 2 pi w R, which no equilibrium exceeds).
+const MOST_TABOR: f64 = 1.0;
 /// Most hard-wall solves in one step.
 const MOST_SOLVES: usize = 240;
 /// Repulsive loads below this share of the law's peak are a first touch.
@@ -84,6 +86,17 @@ impl Hooks for Dmt {
             Some(tabor) => format!("{holds}: here {tabor:.3}"),
             None => holds.to_owned(),
         }
+    }
+
+    fn warnings(&self, plan: &Plan) -> Vec<String> {
+        let tabor = plan.regime.and_then(|regime| regime.tabor);
+        let soft = tabor.filter(|tabor| *tabor > MOST_TABOR);
+        let words = |tabor: f64| {
+            format!(
+                "treatment = \"dmt\" holds at Tabor numbers well below 1, and here it is {tabor:.2}: the attraction would deform the contact, and pull-off comes out too high; take treatment = \"full\""
+            )
+        };
+        soft.map(words).into_iter().collect()
     }
 
     fn solved_law(&self, _: Law) -> Law {

@@ -6,6 +6,7 @@
 
 mod adhesion;
 mod adhesion_map;
+mod attracted_pixels;
 mod capillary;
 mod conductance;
 mod dmt;

@@ -175,7 +175,7 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
         Tension::Passed { step, force } if let_go_while_rising(&end.rows, step).is_some() => {
             let grown = let_go_while_rising(&end.rows, step).unwrap_or_default();
             Some(format!(
-                "the tension grew by {} to {} in step {step}, and the contact let go in the next: its pull-off may be greater by as much; take shorter steps there",
+                "the tension grew by {} to {} in step {step}, and the contact let go in the next: its pull-off may be far greater; take shorter steps there",
                 newtons(grown),
                 newtons(force)
             ))

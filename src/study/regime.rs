@@ -76,7 +76,7 @@ impl Regime {
         let strongest = outline.map.map_or(1.0, |map| map.largest);
         law.is_adhesive().then(|| {
             let radius = match outline.top {
-                Top::Sphere(radius) | Top::Crests(radius) | Top::Ridges(radius) => radius,
+                Top::Sphere(radius) | Top::Crests(radius) | Top::Ridges { radius, .. } => radius,
                 Top::Cone { .. } => f64::INFINITY,
                 Top::Unknown => 2.0 / outline.moments.rms_curvature(),
             };

@@ -66,7 +66,8 @@ fn misses_its_own(setup: &Setup, step: &FinishedStep) -> bool {
         Control::Approach | Control::MeanGap => return false,
     };
     let missed = step.evaluation.as_ref().map_or(0.0, |found| found.missed);
-    load != 0.0 && missed.abs() > MISSED_OF_ITSELF * load.abs()
+    // Of the treatment that sums attraction the row has what the field carries.
+    !setup.sums_attraction() && load != 0.0 && missed.abs() > MISSED_OF_ITSELF * load.abs()
 }
 
 /// That a sphere's contact is wide for a half-space: how wide here, and the words for any step.

@@ -108,12 +108,13 @@ const STRETCHED: f64 = 1.02;
 
 impl HeightMap {
     /// A warning that a grid of equal sides makes the pixels of a map oblong which does not say its size.
-    pub(super) fn stretch(&self, grid: &Grid) -> Option<String> {
-        let [dx, dy] = [grid.dx(), grid.dy()];
-        let is_oblong = grid.nx > 1 && grid.ny > 1 && dx.max(dy) > STRETCHED * dx.min(dy);
+    ///
+    /// The pixels are those of so many columns and rows, from which it may have been resampled.
+    pub(super) fn stretch(&self, grid: &Grid, [columns, rows]: [usize; 2]) -> Option<String> {
+        let [dx, dy] = [grid.lx / columns as f64, grid.ly / rows as f64];
+        let is_oblong = columns > 1 && rows > 1 && dx.max(dy) > STRETCHED * dx.min(dy);
         // Two sides are given because they differ.
         (self.size.is_none() && grid.lx == grid.ly && is_oblong).then(|| {
-            let [columns, rows] = self.points;
             format!(
                 "the file does not say its size, and that of the grid makes the pixels of its {columns} x {rows} points {} x {}; if they are square, the size is {} x {}",
                 format_si(dx, "m"),
@@ -217,7 +218,7 @@ pub(super) fn heights_of(
     }
     let is_periodic = boundary == Boundary::Periodic;
     // Beyond the edges of a patch, which are made to meet or lie apart by its tilt, nothing is known.
-    let wraps = is_periodic
+    let may_wrap = is_periodic
         && asked.edges == Edges::None
         && !matches!(scene.detrend, Detrend::Plane | Detrend::Quadratic);
     check_missing(&heights, share, scene.fill, &mut warnings)?;
@@ -230,6 +231,12 @@ pub(super) fn heights_of(
                 found.count
             ));
         }
+        if found.alone > 0 {
+            warnings.push(format!(
+                "{} of {all} points have no neighbour that is known, so that nothing tells whether they stand out; they are kept",
+                found.alone
+            ));
+        }
         if found.are_few_different {
             warnings.push(format!(
                 "most of the {all} points equal the median of their neighbours (terraces, or few levels), so that outliers = {times} is in \
@@ -239,7 +246,7 @@ pub(super) fn heights_of(
         }
     }
     // At once: a point that stands out is no neighbour to fill another from.
-    fill::interpolate(&mut heights, share, wraps)?;
+    fill_holes(&mut heights, share, may_wrap)?;
 
     if matrix.grey && scene.unit != 1.0 {
         warnings.push(format!(
@@ -270,7 +277,12 @@ pub(super) fn heights_of(
     });
     let open_edges = edges(&heights, share);
     let mut closes = open_edges.is_empty();
-    if !closes && matches!(scene.detrend, Detrend::None | Detrend::Mean) {
+    if !closes
+        && matches!(
+            scene.detrend,
+            Detrend::None | Detrend::Mean | Detrend::Lines
+        )
+    {
         let tilt = detrend::tilt(&heights, share);
         if tilt > TILTED {
             warnings.push(format!(
@@ -360,6 +372,19 @@ fn factor_and_zero(
         }
         (true, Some((black, white))) => Ok([(white - black) * scene.scale, black * scene.scale]),
     }
+}
+
+/// Fills what is missing: from across the edges too where those of the map meet.
+fn fill_holes(heights: &mut [f64], share: &Share, may_wrap: bool) -> Result<(), FileError> {
+    let missing: Vec<usize> = (0..heights.len())
+        .filter(|place| !heights[*place].is_finite())
+        .collect();
+    fill::interpolate(heights, share, false)?;
+    if may_wrap && share.any(!missing.is_empty()) && edges(heights, share).is_empty() {
+        missing.iter().for_each(|place| heights[*place] = f64::NAN);
+        fill::interpolate(heights, share, true)?;
+    }
+    Ok(())
 }
 
 /// Refuses missing pixels unless they are to be filled.

@@ -54,7 +54,7 @@ use std::sync::Arc;
 use crate::backend::Share;
 use crate::backend::ranks::Ranks;
 use crate::grid::Grid;
-use crate::scene::{Boundary, GridScene, HeightFileScene, Scene, SelfAffineScene, SurfacePart};
+use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::shared_values::SharedValues;
 use crate::solver::Problem;
 use crate::units::{LARGEST, in_range};
@@ -294,11 +294,11 @@ fn sum_of(
         match maps[index].take() {
             Some(map) => {
                 add(&mut heights, &map.heights);
-                let keeps_pixels = |file: &HeightFileScene| {
-                    !file.preparation.profile && file.preparation.resample.is_none()
-                };
-                if matches!(part, SurfacePart::File(file) if keeps_pixels(file)) {
-                    found.extend(map.stretch(grid));
+                if let SurfacePart::File(file) = part
+                    && !file.preparation.profile
+                {
+                    let points = points_before_resampling(file).unwrap_or(map.points);
+                    found.extend(map.stretch(grid, points));
                 }
                 found.extend(map.warnings);
             }

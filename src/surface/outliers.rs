@@ -32,16 +32,21 @@ pub(super) fn drop_outliers(values: &mut [f64], share: &Share, times: f64) -> Ou
     if deviation == 0.0 {
         return Outliers::default();
     }
-    let mut here = 0;
+    let (mut here, mut alone) = (0, 0);
     for (value, difference) in values.iter_mut().zip(&differences) {
-        if difference.is_some_and(|difference| difference.abs() > times * deviation) {
-            *value = f64::NAN;
-            here += 1;
+        match difference {
+            Some(difference) if difference.abs() > times * deviation => {
+                *value = f64::NAN;
+                here += 1;
+            }
+            None if value.is_finite() => alone += 1,
+            _ => {}
         }
     }
-    let [count] = share.counts([here]);
+    let [count, alone] = share.counts([here, alone]);
     Outliers {
         count,
+        alone,
         are_few_different,
         deviation,
     }
@@ -52,6 +57,8 @@ pub(super) fn drop_outliers(values: &mut [f64], share: &Share, times: f64) -> Ou
 pub(super) struct Outliers {
     /// Points that stood out.
     pub(super) count: usize,
+    /// Points without a known neighbour, which cannot be judged.
+    pub(super) alone: usize,
     /// Whether most points equal the median of their neighbours, so that the standard deviation is that of the others.
     pub(super) are_few_different: bool,
     /// The standard deviation, in the unit of the numbers.
@@ -235,6 +242,22 @@ mod tests {
                 }
             }
         }
+    }
+
+    /// A spike amid a hole has no neighbour to be compared with, and is counted.
+    #[test]
+    fn points_alone_are_counted() {
+        let in_hole = |at: usize| (10..21).contains(&(at / 40)) && (10..21).contains(&(at % 40));
+        let spike = 15 * 40 + 15;
+        let height = |at: usize| match in_hole(at) && at != spike {
+            true => f64::NAN,
+            false => ((at * 37) % 11) as f64,
+        };
+        let mut values: Vec<f64> = (0..1600).map(height).collect();
+        values[spike] = 3e3;
+        let found = drop_outliers(&mut values, &all(40, 40), 12.0);
+        assert_eq!((found.count, found.alone), (0, 1));
+        assert_eq!(values[spike], 3e3);
     }
 
     /// A spike beside a hole goes with it and leaves nothing in it; a hole makes none of what is beside it.

@@ -74,7 +74,7 @@ pub(super) fn window(heights: &mut [f64], share: &Share) {
     let first = share.surface_rows().start;
     let mean = share.surface_sum_by(heights, |height| height) / (rows * columns) as f64;
     let weight = |at: usize, count: usize| {
-        let wide = (count / WINDOW) as f64;
+        let wide = (count / WINDOW).max(1) as f64;
         let inside = at.min(count - 1 - at) as f64 + 0.5;
         if count == 1 || inside >= wide {
             1.0

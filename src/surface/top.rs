@@ -14,8 +14,13 @@ pub enum Top {
     Sphere(f64),
     /// Round crests of waves along both axes; their radius, m, is the geometric mean of those along x and y.
     Crests(f64),
-    /// Straight crests of waves along one axis, of this radius, m.
-    Ridges(f64),
+    /// Straight crests of waves along one axis.
+    Ridges {
+        /// Radius of a crest, m.
+        radius: f64,
+        /// The axis of the waves: 0 along x, 1 along y.
+        axis: usize,
+    },
     /// The apex of a cone.
     Cone {
         /// Angle between axis and flank, rad.
@@ -75,10 +80,14 @@ impl Top {
 /// Crests of a product of cosines, each of curvature `amplitude k^2` along its axis.
 fn crests(amplitude: f64, wavelength: [f64; 2]) -> Top {
     let radius = |length: f64| (length / (2.0 * PI)).powi(2) / amplitude.abs();
+    let ridges = |axis: usize| Top::Ridges {
+        radius: radius(wavelength[axis]),
+        axis,
+    };
     match wavelength.map(f64::is_finite) {
         [true, true] => Top::Crests((radius(wavelength[0]) * radius(wavelength[1])).sqrt()),
-        [true, false] => Top::Ridges(radius(wavelength[0])),
-        [false, true] => Top::Ridges(radius(wavelength[1])),
+        [true, false] => ridges(0),
+        [false, true] => ridges(1),
         [false, false] => Top::Unknown,
     }
 }
@@ -116,10 +125,14 @@ mod tests {
             panic!("crests");
         };
         assert_relative_eq!(radius, 0.25, max_relative = 1e-14);
-        for wavelength in [[PI, f64::INFINITY], [f64::INFINITY, PI]] {
-            let Top::Ridges(radius) = Top::of(&[wave(wavelength)]) else {
+        for (along, wavelength) in [[PI, f64::INFINITY], [f64::INFINITY, PI]]
+            .into_iter()
+            .enumerate()
+        {
+            let Top::Ridges { radius, axis } = Top::of(&[wave(wavelength)]) else {
                 panic!("ridges");
             };
+            assert_eq!(axis, along);
             assert_relative_eq!(radius, 0.125, max_relative = 1e-14);
         }
     }

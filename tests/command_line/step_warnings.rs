@@ -130,8 +130,8 @@ output = { images = [] }
     let (between, said) = of_cone("between", &[]);
     assert!(between > 1.2, "{between}");
     assert!(
-        said.contains("10 % cannot be reached on this grid: a stiff cone is attracted over a disc about 11.3 pixels wide")
-            && said.contains("put it on one by centre"),
+        said.contains("10 % cannot be reached on this grid: a stiff cone, with its apex between points of the grid, is attracted over a disc about 11.3 pixels wide")
+            && said.contains("put it on one, as by centre = [\"40 nm\", \"40 nm\"]"),
         "{said}"
     );
     let on_a_point = ["--set", "surface.0.centre=[\"40 nm\", \"40 nm\"]"];
@@ -289,12 +289,11 @@ output = { images = [] }
         let found = &summary(&folder.path().join(name))["pull_off_force"];
         [found.to_string(), errors(&output)]
     });
-    let words = "and the contact let go in the next: its pull-off may be greater by as much";
+    let words = "and the contact let go in the next: its pull-off may be far greater";
     assert!(said.contains(words), "{said}");
     assert!(!unsaid.contains(words), "{unsaid}");
     let [long, short] = [long, short].map(|found| found.parse::<f64>().expect("a pull-off"));
-    // What was said covers the difference: half of the tension grew in the last of the long steps.
-    assert!(long < short && short < 1.5 * long, "{long} {short}");
+    assert!(1.02 * long < short, "{long} {short}");
 }
 
 /// Crests on few points: as one more of them touches, its attraction ends, and the net load jumps past the prescribed one: by 2 % at least
@@ -304,6 +303,48 @@ fn a_net_load_that_jumps_past_the_prescribed_one_is_warned_of() {
     let words = "step 1: the net load misses the prescribed force by ";
     assert!(said.contains(words), "{said}");
     assert!(!unsaid.contains("misses"), "{unsaid}");
+}
+
+/// Attraction that is summed over the gap of a contact that it would deform is warned of; at zero load the search ends at its tolerance,
+/// of which nothing is said.
+fn a_treatment_that_does_not_hold_is_warned_of() {
+    let folder = scene(
+        r#"
+grid = { points = 33, size = "400 nm", boundary = "free" }
+solid = { contact_modulus = "100 GPa" }
+surface = [{ kind = "sphere", radius = "1 um" }]
+adhesion = { law = "exponential", work_of_adhesion = 0.05, range = "1 nm", treatment = "dmt" }
+loading = { control = "force", path = ["1 uN", 0] }
+output = { images = [] }
+"#,
+    );
+    let said = |more: &[&str]| {
+        let call = [
+            &[
+                "run",
+                "scene.toml",
+                "--overwrite",
+                "--quiet",
+                "--out",
+                "out",
+            ],
+            more,
+        ]
+        .concat();
+        let output = tabor(folder.path(), &call);
+        assert_eq!(status(&output), 0, "{}", errors(&output));
+        errors(&output)
+    };
+    let stiff = said(&[]);
+    assert!(
+        !stiff.contains("misses") && !stiff.contains("well below 1"),
+        "{stiff}"
+    );
+    let soft = said(&["--set", "solid.contact_modulus=\"20 MPa\""]);
+    assert!(
+        soft.contains("holds at Tabor numbers well below 1, and here it is 5."),
+        "{soft}"
+    );
 }
 
 /// What is said of crests on so many points that are pressed by a force, N, which their load misses by at least a share of it, and at
@@ -548,6 +589,7 @@ tests![
     attraction_about_cones_and_crests_is_warned_of,
     a_load_that_the_pressures_miss_by_much_of_itself_is_warned_of,
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
+    a_treatment_that_does_not_hold_is_warned_of,
     a_contact_that_lets_go_while_its_tension_grows_is_warned_of,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
