@@ -1,6 +1,6 @@
 //! `[adhesion]`: a cohesive law acts across the gap.
 
-use super::attracted_pixels;
+use super::attracted_pixels::{self, LEAST_TABOR};
 use crate::law::Law;
 use crate::scene::{Boundary, Range, Scene, Treatment};
 use crate::study::{Column, Evaluation, Hooks, Plan, Regime, Setup};
@@ -36,8 +36,7 @@ const LEAST_TAPER: f64 = 0.2;
 /// on: at 1.8 by up to 15 %, at 2 by up to 38 %.
 const STILL_SMOOTH: f64 = 3.0;
 const WIDE_TAPER: f64 = 1.5;
-/// Tabor number below which a contact shrinks to a point before pull-off, so that it has no width.
-pub(super) const LEAST_TABOR: f64 = 0.8;
+
 /// The adhesion of the examples of other effects.
 pub(super) const EXAMPLE: (&str, &str) = (
     "adhesion",

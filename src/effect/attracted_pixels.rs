@@ -1,12 +1,14 @@
 //! The warning of stiff bodies that attract over a few pixels where they touch, however wide the cohesive zone of a crack is.
 
-use super::adhesion::LEAST_TABOR;
 use crate::grid::Grid;
 use crate::law::Law;
 use crate::study::{Plan, Regime};
 use crate::surface::Top;
 use crate::surface::shapes::ApexPosition;
 use crate::units::format_si;
+
+/// Tabor number below which a contact shrinks to a point before pull-off, so that it has no width.
+pub(super) const LEAST_TABOR: f64 = 0.8;
 
 /// What few pixels across the attracted part change pull-off by, as measured (`docs/solver.md`).
 struct Limits {
@@ -53,7 +55,7 @@ const RIDGES: [Limits; 2] = [
         errors: "9 % off at 2 pixels",
     },
 ];
-/// Of cones whose apex lies between points, of Maugis-Dugdale, exponential and Lennard-Jones,
+/// Of cones whose apex lies between points: of a law that ends suddenly, of one that fades, and of one without a wall,
 const BETWEEN: [Limits; 3] = [
     Limits {
         few: 60.0,
@@ -165,9 +167,9 @@ fn warning_of_cone(plan: &Plan, half_angle: f64, centre: Option<[f64; 2]>) -> Op
     }
     let pixels = 2.0 * range * slope / grid.longer_pixel();
     let law = match plan.law {
-        Law::Exponential(_) => 1,
-        Law::LennardJones(_) => 2,
-        _ => 0,
+        Law::MaugisDugdale(_) => 0,
+        law if law.has_wall() => 1,
+        _ => 2,
     };
     let place = ApexPosition {
         centre,

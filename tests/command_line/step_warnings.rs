@@ -130,7 +130,7 @@ output = { images = [] }
     let (between, said) = of_cone("between", &[]);
     assert!(between > 1.2, "{between}");
     assert!(
-        said.contains("10 % cannot be reached on this grid: a stiff cone, with its apex between points of the grid, is attracted over a disc about 11.3 pixels wide")
+        said.contains("10 % cannot be reached on this grid: a stiff cone, with its apex between points of the grid is attracted over a disc about 11.3 pixels wide")
             && said.contains("put it on one, as by centre = [\"40 nm\", \"40 nm\"]"),
         "{said}"
     );
@@ -318,29 +318,19 @@ loading = { control = "force", path = ["1 uN", 0] }
 output = { images = [] }
 "#,
     );
-    let said = |more: &[&str]| {
-        let call = [
-            &[
-                "run",
-                "scene.toml",
-                "--overwrite",
-                "--quiet",
-                "--out",
-                "out",
-            ],
-            more,
-        ]
-        .concat();
+    let said = |out: &str, modulus: &str| {
+        let set = format!("solid.contact_modulus=\"{modulus}\"");
+        let call = ["run", "scene.toml", "--quiet", "--out", out, "--set", &set];
         let output = tabor(folder.path(), &call);
         assert_eq!(status(&output), 0, "{}", errors(&output));
         errors(&output)
     };
-    let stiff = said(&[]);
+    let stiff = said("stiff", "100 GPa");
     assert!(
         !stiff.contains("misses") && !stiff.contains("well below 1"),
         "{stiff}"
     );
-    let soft = said(&["--set", "solid.contact_modulus=\"20 MPa\""]);
+    let soft = said("soft", "20 MPa");
     assert!(
         soft.contains("holds at Tabor numbers well below 1, and here it is 17.9"),
         "{soft}"

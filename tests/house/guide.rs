@@ -235,6 +235,7 @@ fn no_effect_names_another() {
         for line in named {
             let allowed = [
                 "super::adhesion::",
+                "super::attracted_pixels::",
                 "super::edge::Edge",
                 "super::LIST",
                 "super::*",
