@@ -176,11 +176,11 @@ impl Surface {
         Ok(Surface {
             grid,
             heights,
-            highest: match Top::of(parts) {
+            highest: match Top::from_parts(parts) {
                 Top::Sphere(_) | Top::Cone { .. } => 0.0,
                 _ => sampled,
             },
-            top: Top::of(parts),
+            top: Top::from_parts(parts),
             adhesion_map: None,
             warnings,
         })

@@ -199,7 +199,7 @@ impl Outline {
             grid,
             moments: SpectralMoments::from_isotropic(sums),
             source,
-            top: Top::of(parts),
+            top: Top::from_parts(parts),
             has_flats: false,
             map: match scene
                 .adhesion
@@ -254,7 +254,7 @@ fn joined(parts: &[SurfacePart]) -> Cow<'_, [SurfacePart]> {
     let mut shaped = parts
         .iter()
         .filter(|part| !matches!(part, SurfacePart::Flat));
-    match (Top::of(parts), shaped.next(), shaped.next()) {
+    match (Top::from_parts(parts), shaped.next(), shaped.next()) {
         (Top::Sphere(radius), Some(SurfacePart::Sphere { centre, .. }), Some(_)) => {
             let centre = *centre;
             vec![SurfacePart::Sphere { radius, centre }].into()

@@ -32,7 +32,7 @@ pub enum Top {
 
 impl Top {
     /// That of the sum of parts.
-    pub fn of(parts: &[SurfacePart]) -> Top {
+    pub fn from_parts(parts: &[SurfacePart]) -> Top {
         let mut shaped = parts
             .iter()
             .filter(|part| !matches!(part, SurfacePart::Flat));
@@ -108,20 +108,20 @@ mod tests {
             half_angle: 1.2,
             centre: None,
         };
-        assert_eq!(Top::of(&[sphere(2.0, None)]), Top::Sphere(2.0));
+        assert_eq!(Top::from_parts(&[sphere(2.0, None)]), Top::Sphere(2.0));
         let both = [sphere(2.0, None), SurfacePart::Flat, sphere(2.0, None)];
-        assert_eq!(Top::of(&both), Top::Sphere(1.0));
+        assert_eq!(Top::from_parts(&both), Top::Sphere(1.0));
         let apart = [sphere(2.0, None), sphere(2.0, Some([0.0, 1.0]))];
-        assert_eq!(Top::of(&apart), Top::Unknown);
+        assert_eq!(Top::from_parts(&apart), Top::Unknown);
         let apex = Top::Cone {
             half_angle: 1.2,
             centre: None,
         };
-        assert_eq!(Top::of(&[SurfacePart::Flat, cone.clone()]), apex);
-        assert_eq!(Top::of(&[cone.clone(), cone]), Top::Unknown);
-        assert_eq!(Top::of(&[SurfacePart::Flat]), Top::Unknown);
+        assert_eq!(Top::from_parts(&[SurfacePart::Flat, cone.clone()]), apex);
+        assert_eq!(Top::from_parts(&[cone.clone(), cone]), Top::Unknown);
+        assert_eq!(Top::from_parts(&[SurfacePart::Flat]), Top::Unknown);
         // k = 1 and 2: curvatures 2 and 8.
-        let Top::Crests(radius) = Top::of(&[wave([2.0 * PI, PI])]) else {
+        let Top::Crests(radius) = Top::from_parts(&[wave([2.0 * PI, PI])]) else {
             panic!("crests");
         };
         assert_relative_eq!(radius, 0.25, max_relative = 1e-14);
@@ -129,7 +129,7 @@ mod tests {
             .into_iter()
             .enumerate()
         {
-            let Top::Ridges { radius, axis } = Top::of(&[wave(wavelength)]) else {
+            let Top::Ridges { radius, axis } = Top::from_parts(&[wave(wavelength)]) else {
                 panic!("ridges");
             };
             assert_eq!(axis, along);
