@@ -11,6 +11,7 @@ use crate::units::format_si;
 pub(super) const LEAST_TABOR: f64 = 0.8;
 
 /// What few pixels across the attracted part change pull-off by, as measured (`docs/solver.md`).
+#[derive(Clone, Copy)]
 struct Limits {
     /// Fewer pixels are warned of,
     few: f64,
@@ -35,7 +36,7 @@ const SPHERE: [Limits; 2] = [
 ];
 /// Of round crests, which lie on points of the grid.
 const CRESTS: [Limits; 2] = [
-    SPHERE[0].same(),
+    SPHERE[0],
     Limits {
         few: 4.0,
         lost: 1.5,
@@ -105,10 +106,6 @@ const NEAR_A_POINT: f64 = 0.05;
 const SOFT_CONE: f64 = 0.05;
 
 impl Limits {
-    const fn same(&self) -> Limits {
-        Limits { ..*self }
-    }
-
     /// The warning of so many pixels across what is attracted.
     fn warning(&self, pixels: f64, attracted: &str, remedy: &str) -> Option<String> {
         if pixels >= self.few {

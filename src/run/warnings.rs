@@ -167,19 +167,21 @@ fn pull_off(loading: &LoadingScene, end: &WalkEnd) -> Option<String> {
     let newtons = |force: f64| format_si(force, "N");
     let greatest = greatest_force(&end.rows);
     let tension = Tension::at_end(loading, end);
+    if let Tension::Passed { step, force } = tension
+        && !tension.is_cut_off(loading, &end.rows)
+        && let Some(grown) = let_go_while_rising(&end.rows, step)
+    {
+        return Some(format!(
+            "the tension grew by {} to {} in step {step}, and the contact let go in the next: its pull-off may be far greater; take shorter steps there",
+            newtons(grown),
+            newtons(force)
+        ));
+    }
     match tension {
         Tension::Passed { step, force } if tension.is_cut_off(loading, &end.rows) => Some(format!(
             "the path turns back at its greatest tension, {} in step {step}, or begins there: the surfaces were not pressed beyond it, and pull-off may be greater; press further",
             newtons(force)
         )),
-        Tension::Passed { step, force } if let_go_while_rising(&end.rows, step).is_some() => {
-            let grown = let_go_while_rising(&end.rows, step).unwrap_or_default();
-            Some(format!(
-                "the tension grew by {} to {} in step {step}, and the contact let go in the next: its pull-off may be far greater; take shorter steps there",
-                newtons(grown),
-                newtons(force)
-            ))
-        }
         Tension::Holds { step, force } if end.rows[step - 1].state != State::Separated => {
             let what = match end.rows[step - 1].state {
                 State::Contact => "the contact",

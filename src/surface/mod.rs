@@ -173,14 +173,15 @@ impl Surface {
             });
         }
         let sampled = share.greatest_of(&heights);
+        let top = Top::from_parts(parts);
         Ok(Surface {
             grid,
             heights,
-            highest: match Top::from_parts(parts) {
+            highest: match top {
                 Top::Sphere(_) | Top::Cone { .. } => 0.0,
                 _ => sampled,
             },
-            top: Top::from_parts(parts),
+            top,
             adhesion_map: None,
             warnings,
         })
