@@ -1,6 +1,7 @@
 //! Runs nothing and counts everything: what a scene costs before anything is allocated.
 
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, check_fields};
+use crate::backend::long_field::LongField;
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 
 /// One thing that would be held in memory.
@@ -178,8 +179,8 @@ impl Backend for DryRun {
 
     fn write(&mut self, _field: Field, _values: &[f64]) {}
 
-    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
-        Ok(vec![0.0; self.levels[field.level.0].len()])
+    fn read(&mut self, field: Field) -> Result<LongField<f64>, BackendError> {
+        Ok(LongField::zeros(self.levels[field.level.0].len()))
     }
 
     fn set_law_factor(&mut self, _factor: Field) {}

@@ -3,9 +3,13 @@
 
 use rayon::prelude::*;
 
+use super::long_field::LongField;
+
 /// A field of so many points from the value at each.
-pub fn made(points: usize, value_at: impl Fn(usize) -> f64 + Sync) -> Vec<f64> {
-    (0..points).into_par_iter().map(&value_at).collect()
+pub fn made(points: usize, value_at: impl Fn(usize) -> f64 + Sync) -> LongField<f64> {
+    let mut field = LongField::zeros(points);
+    change(&mut field, |point, value| *value = value_at(point));
+    field
 }
 
 /// A field of one value.

@@ -15,6 +15,7 @@ mod factors;
 #[cfg(feature = "gpu")]
 pub mod gpu;
 pub(crate) mod host_fields;
+pub mod long_field;
 pub mod ranks;
 mod share;
 /// What remains of graphics processors without the feature `gpu`: a buffer that nobody can have.
@@ -27,6 +28,7 @@ mod gpu {
 
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 pub use factors::{Factors, Response};
+use long_field::LongField;
 pub use share::Share;
 
 /// A grid on which fields live: the fine one, or a coarse one of the preconditioner.
@@ -157,7 +159,7 @@ pub trait Backend {
     /// Overwrites a field: the rows of it that this process holds.
     fn write(&mut self, field: Field, values: &[f64]);
     /// Waits, and reads a field: the rows of it that this process holds.
-    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError>;
+    fn read(&mut self, field: Field) -> Result<LongField<f64>, BackendError>;
     /// Multiplies the law's tension by this field, in every kernel of its level from now on. Without
     /// a call the law is the same everywhere and nothing is read for it.
     fn set_law_factor(&mut self, factor: Field);

@@ -77,7 +77,12 @@ impl Solution {
                     Cow::Borrowed(_) => heights.clone(),
                     Cow::Owned(lowered) => lowered.into(),
                 };
-                (found.gap, found.pressure, displacement, heights)
+                (
+                    found.gap.into(),
+                    found.pressure.into(),
+                    displacement,
+                    heights,
+                )
             }
             None => {
                 let is_known = !unreachable.is_some_and(Unreachable::is_without_state);

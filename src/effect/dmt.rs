@@ -151,7 +151,7 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
         let start = match (loaded, setup.problem.boundary) {
             (true, _) => Start::Present,
             (false, Boundary::Periodic) => Start::Cold,
-            (false, Boundary::Free) => Start::Gap(controller.undeformed_gap(0.0, None)),
+            (false, Boundary::Free) => Start::Gap(controller.undeformed_gap(0.0, None).into()),
         };
         let outcome = attempt.solve(&load, &start)?;
         loaded = true;
@@ -229,7 +229,7 @@ fn search(attempt: &mut Attempt) -> Result<SolvedStep, BackendError> {
                 });
             };
             let load = controller.clearance_load(clearance);
-            let start = Start::Gap(controller.gap_at_clearance(clearance));
+            let start = Start::Gap(controller.gap_at_clearance(clearance).into());
             let outcome = attempt.solve(&load, &start)?;
             let mut solved = attempt.finish(&load, &outcome)?;
             solved.iterations += iterations;

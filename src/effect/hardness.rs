@@ -8,6 +8,7 @@
 
 use std::sync::Arc;
 
+use crate::backend::long_field::LongField;
 use crate::backend::{BackendError, Share};
 use crate::scene::{Control, Scene};
 use crate::solver::{ContactSolver, Hold, Load, Problem};
@@ -106,7 +107,7 @@ impl Hooks for Hardness {
 #[derive(Clone)]
 struct Indentation {
     /// `None` until the solid yields anywhere. Copies share them until a step changes them.
-    depths: Option<Arc<Vec<f64>>>,
+    depths: Option<Arc<LongField<f64>>>,
     /// The points that this process holds.
     share: Share,
     /// Hardness times the volume of a unit of depth over a pixel, J.
@@ -128,7 +129,7 @@ impl Carry for Indentation {
 
     fn restore(&self, solver: &mut ContactSolver) {
         if self.depths.is_some() || solver.plastic_depths().is_some() {
-            solver.set_plastic_depths(self.depths.as_ref().map(|depths| depths.as_slice()));
+            solver.set_plastic_depths(self.depths.as_ref().map(|depths| &***depths));
         }
     }
 
@@ -156,7 +157,7 @@ impl Carry for Indentation {
         if share.any(yields) {
             let depths = self
                 .depths
-                .get_or_insert_with(|| Arc::new(vec![0.0; share.len()]));
+                .get_or_insert_with(|| Arc::new(LongField::zeros(share.len())));
             let depths = Arc::make_mut(depths);
             let lines = gap.chunks_exact_mut(shape.points[0]);
             let lines = lines.take(share.surface_rows().len());
@@ -168,7 +169,7 @@ impl Carry for Indentation {
                     }
                 }
             }
-            solver.set_plastic_depths(self.depths.as_ref().map(|depths| depths.as_slice()));
+            solver.set_plastic_depths(self.depths.as_ref().map(|depths| &***depths));
             solver.set_gap(&gap);
         }
         Ok(())

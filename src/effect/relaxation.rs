@@ -11,6 +11,7 @@
 
 use std::sync::Arc;
 
+use crate::backend::long_field::LongField;
 use crate::backend::{BackendError, host_fields};
 use crate::scene::{RelaxationScene, Scene, SolidScene};
 use crate::solver::{ContactSolver, Problem};
@@ -140,9 +141,9 @@ fn effective_modulus(solid: &SolidScene, duration: f64) -> f64 {
 #[derive(Clone)]
 struct History {
     /// Displacement at the end of the last step.
-    displacement: Arc<Vec<f64>>,
+    displacement: Arc<LongField<f64>>,
     /// Displacement of the spring of each branch, in the order of the scene.
-    springs: Vec<Arc<Vec<f64>>>,
+    springs: Vec<Arc<LongField<f64>>>,
     /// Offset of the surface by its history in the present step.
     offset: Vec<f64>,
 }
@@ -151,11 +152,11 @@ impl History {
     /// A solid at rest.
     fn at_rest(solid: &SolidScene, points: usize) -> History {
         History {
-            displacement: Arc::new(vec![0.0; points]),
+            displacement: Arc::new(LongField::zeros(points)),
             springs: solid
                 .relaxation
                 .iter()
-                .map(|_| Arc::new(vec![0.0; points]))
+                .map(|_| Arc::new(LongField::zeros(points)))
                 .collect(),
             offset: Vec::new(),
         }
@@ -177,7 +178,7 @@ impl History {
     }
 
     /// Ends a step of `duration` (s) at a displacement.
-    fn advance(&mut self, solid: &SolidScene, duration: f64, displacement: Vec<f64>) {
+    fn advance(&mut self, solid: &SolidScene, duration: f64, displacement: LongField<f64>) {
         for (branch, spring) in solid.relaxation.iter().zip(&mut self.springs) {
             let (alpha, beta) = branch_coefficients(duration / branch.time);
             let steps = displacement.iter().zip(&*self.displacement);
@@ -210,7 +211,7 @@ impl History {
         &'a self,
         solid: &'a SolidScene,
     ) -> impl Iterator<Item = (&'a RelaxationScene, &'a [f64])> {
-        let springs = self.springs.iter().map(|spring| spring.as_slice());
+        let springs = self.springs.iter().map(|spring| &***spring);
         solid.relaxation.iter().zip(springs)
     }
 }
@@ -252,8 +253,8 @@ impl Carry for History {
         let offset = std::mem::take(&mut self.offset);
         let Some(evaluation) = &mut solved.evaluation else {
             // Without pressure the solid recovers: its displacement cancels the offset.
-            let displacement = offset.into_iter().map(|moved| -moved).collect();
-            self.advance(solid, duration, displacement);
+            let displacement: Vec<f64> = offset.into_iter().map(|moved| -moved).collect();
+            self.advance(solid, duration, displacement.into());
             solved.left_energy = self.energy(solid, duration, solver)?;
             return Ok(());
         };
@@ -303,7 +304,7 @@ mod tests {
         let step = |history: &mut History, duration: f64| {
             let displacement = 1.0 / effective_modulus(&solid, duration)
                 - history.offset_over(&solid, duration)[0];
-            history.advance(&solid, duration, vec![displacement]);
+            history.advance(&solid, duration, vec![displacement].into());
             displacement
         };
         assert!((step(&mut history, 0.0) - 0.1).abs() < 1e-15);

@@ -17,6 +17,7 @@ use serde_json::Value;
 
 use super::error::{FRESH, OutputError};
 use super::folder::stream_within;
+use crate::backend::long_field::LongField;
 use crate::backend::{BackendError, Share};
 use crate::study::{Checkpoint, CheckpointField, PointState, PullOff};
 
@@ -411,7 +412,7 @@ impl<R: Read + Seek> StateFile<R> {
     pub fn read_all(mut self) -> Result<SavedState<'static>, OutputError> {
         let mut checkpoint = self.state.checkpoint.clone().into_owned();
         for (place, field) in checkpoint.fields.iter_mut().enumerate() {
-            let mut values = vec![0.0; self.lengths[place]];
+            let mut values = LongField::zeros(self.lengths[place]);
             self.numbers(&mut values)?;
             field.values = Arc::new(values);
         }

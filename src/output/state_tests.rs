@@ -20,7 +20,7 @@ fn state(single: bool) -> SavedState<'static> {
         checkpoint: Cow::Owned(Checkpoint {
             fields: vec![CheckpointField {
                 name: "gap".into(),
-                values: Arc::new(values),
+                values: Arc::new(values.into()),
             }],
             evaluated_under: Some(0.1),
             points: Some(vec![

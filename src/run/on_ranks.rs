@@ -122,7 +122,7 @@ pub(super) fn earlier_of_leader(
                 read = file.numbers(values);
             }
         });
-        field.values = Arc::new(rows?);
+        field.values = Arc::new(rows?.into());
     }
     if let Some(points) = &mut checkpoint.points {
         let rows = share.from_first(true, &mut |states| {

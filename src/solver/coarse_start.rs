@@ -5,6 +5,7 @@ use std::ops::Range;
 use super::contact::ContactSolver;
 use super::load::{Hold, Load, Start};
 use super::{MakeBackend, problem::Problem};
+use crate::backend::long_field::LongField;
 use crate::backend::{Backend, BackendError, host_fields};
 use crate::kernel::{Scalars, Status};
 use crate::law::Law;
@@ -28,7 +29,7 @@ pub(super) fn gap(
     load: &Load,
     make_backend: MakeBackend,
     watch: &mut dyn FnMut(&Scalars) -> bool,
-) -> Result<Option<(Vec<f64>, f64)>, BackendError> {
+) -> Result<Option<(LongField<f64>, f64)>, BackendError> {
     let [nx, ny] = problem.shape.points;
     if problem.law != Law::HardWall || nx.min(ny) < FEWEST_HELPED || load.zero_stiffness != 0.0 {
         return Ok(None);
@@ -42,7 +43,7 @@ fn refine(
     make_backend: MakeBackend,
     watch: &mut dyn FnMut(&Scalars) -> bool,
     levels: usize,
-) -> Result<Option<(Vec<f64>, f64)>, BackendError> {
+) -> Result<Option<(LongField<f64>, f64)>, BackendError> {
     let [nx, ny] = problem.shape.points;
     if levels == 0 || nx.min(ny) < 2 * FEWEST_COARSEST {
         return Ok(None);
@@ -89,7 +90,7 @@ fn refine(
 
 /// A loose solution of a coarse problem.
 struct End {
-    gap: Vec<f64>,
+    gap: LongField<f64>,
     transforms: f64,
     /// Whether it came to nothing.
     failed: bool,
@@ -127,7 +128,7 @@ fn refined(
     coarse: &Problem,
     fine: &Problem,
     of: impl Fn(usize, f64) -> f64 + Sync,
-) -> Result<Vec<f64>, BackendError> {
+) -> Result<LongField<f64>, BackendError> {
     let points = coarse.shape.points;
     let [nx, ny] = points;
     let rows = fine.share.rows();
@@ -162,8 +163,8 @@ fn interpolate<'a>(
     [nx, ny]: [usize; 2],
     rows: Range<usize>,
     of: impl Fn(usize, f64) -> f64 + Sync,
-) -> Vec<f64> {
-    let mut fine = vec![0.0; 2 * nx * rows.len()];
+) -> LongField<f64> {
+    let mut fine = LongField::zeros(2 * nx * rows.len());
     host_fields::change_rows(&mut fine, 2 * nx, |place, line| {
         let y = rows.start + place;
         let row = y / 2;

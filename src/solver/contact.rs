@@ -1,5 +1,6 @@
 //! A solver of one problem: what it plans, how a solve of a load begins, and when it ends.
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use super::MakeBackend;
@@ -11,6 +12,7 @@ use super::mean_gap::HeightsPressure;
 use super::multilevel::{Multilevel, sticks};
 use super::outer_state::OuterState;
 use super::problem::Problem;
+use crate::backend::long_field::LongField;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Spectrum, host_fields};
 use crate::grid::Boundary;
 use crate::kernel::{Params, Scalars, Status, scalar};
@@ -190,7 +192,7 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// The gap over all held solved points, reduced.
-    pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
+    pub fn gap(&mut self) -> Result<LongField<f64>, BackendError> {
         match &mut self.outer {
             Some(outer) => outer.gap(),
             None => self.backend.read(self.gap),
@@ -221,7 +223,7 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// The elastic pressure K*(g + h) over all solved points, reduced, without the mean pressure.
-    pub fn elastic_pressure(&mut self) -> Result<Vec<f64>, BackendError> {
+    pub fn elastic_pressure(&mut self) -> Result<LongField<f64>, BackendError> {
         match &mut self.outer {
             Some(outer) => outer.pressure(),
             None => self.backend.read(self.pressure),
@@ -250,7 +252,7 @@ impl<'a> ContactSolver<'a> {
     }
 
     /// The gap at which the undeformed surfaces first touch, scaled or shifted to a prescribed mean gap.
-    fn undeformed(&self, load: &Load) -> Vec<f64> {
+    fn undeformed(&self, load: &Load) -> LongField<f64> {
         let own = &self.problem.heights;
         let mut heights = host_fields::made(own.len(), own.by_point());
         if let Some(depths) = &self.plastic_depths {
@@ -312,7 +314,7 @@ impl<'a> ContactSolver<'a> {
                 let gap = self.undeformed(load);
                 let gap = match self.problem.boundary {
                     Boundary::Periodic => gap,
-                    Boundary::Free => self.problem.padded(&gap, 0.0),
+                    Boundary::Free => self.problem.padded(&gap, 0.0).into(),
                 };
                 self.backend.write(self.gap, &gap);
             }
@@ -398,15 +400,19 @@ impl<'a> ContactSolver<'a> {
             }
             _ => None,
         };
-        let helped = helped.map(|(gap, transforms)| {
-            self.helped_by += transforms;
-            Start::Gap(gap)
-        });
-        let start = helped.as_ref().unwrap_or(start);
+        let start = match helped {
+            Some((gap, transforms)) => {
+                self.helped_by += transforms;
+                Cow::Owned(Start::Gap(gap))
+            }
+            None => Cow::Borrowed(start),
+        };
         if self.outer().is_some() {
             return self.solve_in_rounds(load, start, tolerance, max_iterations, careful, watch);
         }
-        self.begin(load, start, tolerance, careful)?;
+        self.begin(load, &start, tolerance, careful)?;
+        // It is not held beside the fields of the iterations.
+        drop(start);
         let (mut rounds, mut iterations, mut refreshed) = (0, 0, 0);
         let (mut best, mut restarts) = (f64::INFINITY, 0);
         loop {

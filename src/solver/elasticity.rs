@@ -1,6 +1,7 @@
 //! The elastic operator on values of the host, between solves.
 
 use super::contact::ContactSolver;
+use crate::backend::long_field::LongField;
 use crate::backend::{BackendError, Spectrum};
 use crate::grid::Boundary;
 use crate::kernel::{Gate, displacement};
@@ -27,21 +28,27 @@ impl ContactSolver<'_> {
 
     /// `K*values` over all solved points, reduced, with the half-space's own zero mode. Between
     /// solves only: it uses their directions as work space.
-    pub(super) fn stiffness_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
+    pub(super) fn stiffness_times(
+        &mut self,
+        values: &[f64],
+    ) -> Result<LongField<f64>, BackendError> {
         let own = self.own_zero_mode();
         self.backend.set_zero_mode(self.stiffness, own);
         self.convolve(self.stiffness, values)
     }
 
     /// `S*values`, S the inverse of that stiffness; 0 for a problem without conductance.
-    pub(super) fn compliance_times(&mut self, values: &[f64]) -> Result<Vec<f64>, BackendError> {
+    pub(super) fn compliance_times(
+        &mut self,
+        values: &[f64],
+    ) -> Result<LongField<f64>, BackendError> {
         match self.compliance {
             Some(compliance) => self.convolve(compliance, values),
-            None => Ok(vec![0.0; values.len()]),
+            None => Ok(LongField::zeros(values.len())),
         }
     }
 
-    fn convolve(&mut self, by: Spectrum, values: &[f64]) -> Result<Vec<f64>, BackendError> {
+    fn convolve(&mut self, by: Spectrum, values: &[f64]) -> Result<LongField<f64>, BackendError> {
         let work = self.direction;
         self.backend.write(work, values);
         self.backend

@@ -8,6 +8,7 @@
 
 use super::contact::ContactSolver;
 use crate::backend::BackendError;
+use crate::backend::long_field::LongField;
 
 impl ContactSolver<'_> {
     /// Load that a unit displacement of the contact takes, reduced, summed over its points: 0
@@ -36,7 +37,7 @@ impl ContactSolver<'_> {
             return Ok(Some(f64::INFINITY));
         }
         let contact = problem.padded(contact, 0.0);
-        let cut = |mut values: Vec<f64>| {
+        let cut = |mut values: LongField<f64>| {
             values.iter_mut().zip(&contact).for_each(|(v, c)| *v *= c);
             values
         };

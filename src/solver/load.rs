@@ -1,5 +1,6 @@
 //! What a solve is asked, from which state it starts, and how it ended.
 
+use crate::backend::long_field::LongField;
 use crate::kernel::Status;
 
 /// What is prescribed, reduced units.
@@ -28,7 +29,7 @@ pub enum Start {
     /// The gap in the solver's field as it is.
     Present,
     /// This gap over all solved points; pressures are evaluated from it.
-    Gap(Vec<f64>),
+    Gap(LongField<f64>),
     /// The undeformed heights at first touch, helped by coarser grids where that pays.
     Cold,
 }

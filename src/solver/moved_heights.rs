@@ -2,6 +2,7 @@
 
 use super::contact::ContactSolver;
 use crate::backend::BackendError;
+use crate::backend::long_field::LongField;
 
 impl ContactSolver<'_> {
     /// Moves the rigid heights by what the history of a viscoelastic solid adds to its displacement (reduced,
@@ -30,7 +31,7 @@ impl ContactSolver<'_> {
     }
 
     /// The rigid heights over all held solved points as plastic depths and history have left them.
-    fn moved_heights(&self) -> Vec<f64> {
+    fn moved_heights(&self) -> LongField<f64> {
         let mut moved = self.problem.padded_heights();
         for (height, depth) in moved.iter_mut().zip(self.plastic_depths.iter().flatten()) {
             *height -= depth;

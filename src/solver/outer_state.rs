@@ -4,6 +4,7 @@ use super::kernel_set::{KernelSet, params_of_problem};
 use super::load::{Hold, Load};
 use super::mean_gap::HeightsPressure;
 use super::problem::Problem;
+use crate::backend::long_field::LongField;
 use crate::backend::{Backend, BackendError, Field, Level, Response, Share, Spectrum};
 use crate::kernel::{Gate, Params, Scalars, Status, displacement, mean_gap, refinement, scalar};
 
@@ -139,12 +140,12 @@ impl OuterState {
         self.backend.write(self.places.gap, gap);
     }
 
-    pub fn gap(&mut self) -> Result<Vec<f64>, BackendError> {
+    pub fn gap(&mut self) -> Result<LongField<f64>, BackendError> {
         self.backend.read(self.places.gap)
     }
 
     /// K*(g + h), as last evaluated.
-    pub fn pressure(&mut self) -> Result<Vec<f64>, BackendError> {
+    pub fn pressure(&mut self) -> Result<LongField<f64>, BackendError> {
         self.backend.read(self.places.pressure)
     }
 

@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use super::heights::Heights;
 use super::stiffness;
+use crate::backend::long_field::LongField;
 use crate::backend::ranks::Ranks;
 use crate::backend::{
     Backend, BackendError, Factors, Level, Response, Shape, Share, Spectrum, host_fields,
@@ -414,14 +415,14 @@ impl Problem {
     }
 
     /// The heights over all held solved points, 0 on a pad; none of a sketch.
-    pub fn padded_heights(&self) -> Vec<f64> {
+    pub fn padded_heights(&self) -> LongField<f64> {
         let rows = if self.is_sketch() {
             0
         } else {
             self.share.rows().len()
         };
         let width = self.shape.points[0];
-        let mut heights = vec![0.0; rows * width];
+        let mut heights = LongField::zeros(rows * width);
         host_fields::change_rows(&mut heights, width, |row, line| {
             let height_at = self.padded_row(row);
             for (x, height) in line.iter_mut().enumerate() {
@@ -455,11 +456,11 @@ impl Problem {
     }
 
     /// The same in the place of the values.
-    pub fn cut_to_surface(&self, values: Vec<f64>) -> Vec<f64> {
+    pub fn cut_to_surface(&self, values: LongField<f64>) -> LongField<f64> {
         if self.shape.points == self.shape.surface {
             values
         } else {
-            self.surface_part(&values)
+            self.surface_part(&values).into()
         }
     }
 }

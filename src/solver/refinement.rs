@@ -11,6 +11,7 @@ use super::outer_state::OuterState;
 use crate::backend::{Backend, BackendError, Field};
 use crate::kernel::{Scalars, Status};
 use crate::law::Law;
+use std::borrow::Cow;
 
 /// Tolerance of the first solve: what single precision reaches on every scene.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-4;
@@ -89,24 +90,28 @@ impl ContactSolver<'_> {
     pub(super) fn solve_in_rounds(
         &mut self,
         load: &Load,
-        start: &Start,
+        start: Cow<Start>,
         tolerance: f64,
         max_iterations: usize,
         careful: bool,
         watch: &mut dyn FnMut(&Scalars) -> bool,
     ) -> Result<Outcome, BackendError> {
         let (mut iterations, mut status, mut stopped) = (0, Status::Running, false);
-        let near = match start {
+        let near = match &*start {
             // The careful descent moves the gap itself. Corrections of undeformed surfaces would be as large as their gap.
             _ if careful => None,
             Start::Cold => None,
-            _ => self.near_start(load, start, tolerance)?,
+            _ => self.near_start(load, &start, tolerance)?,
         };
         let mut end = match near {
-            Some(end) => end,
+            Some(end) => {
+                drop(start);
+                end
+            }
             None => {
-                self.hand_start(start)?;
-                self.begin(load, start, tolerance.max(FIRST_TOLERANCE), careful)?;
+                self.hand_start(&start)?;
+                self.begin(load, &start, tolerance.max(FIRST_TOLERANCE), careful)?;
+                drop(start);
                 let first = self.run_out(0, max_iterations, watch)?;
                 // Corrections ask for no heights.
                 self.release_heights();

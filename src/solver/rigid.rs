@@ -5,6 +5,8 @@
 //! a digit beside them, and no descent leads out. Such points stop where the repulsion equals the largest
 //! pressure that the solid can be pressed to, and the others move further, so that the mean is kept.
 
+use std::ops::DerefMut;
+
 use super::problem::Problem;
 use crate::law::{Cohesion, Law};
 
@@ -15,7 +17,7 @@ const NEWTON_STEPS: usize = 60;
 impl Problem {
     /// This gap over all solved points of a periodic grid, reduced, moved rigidly to this mean; for a law
     /// without a wall, points stop at the least gap that any pressure reaches.
-    pub fn moved_to(&self, mut gap: Vec<f64>, target: f64) -> Vec<f64> {
+    pub fn moved_to<F: DerefMut<Target = [f64]> + Sync>(&self, mut gap: F, target: f64) -> F {
         let count = self.shape.len();
         let mean = self.share.sum(&gap) / count as f64;
         let mut moved = target - mean;

@@ -6,6 +6,7 @@ use super::row::State;
 use super::setup::Setup;
 use super::step::{SolvedStep, finish, misses, solve};
 use crate::backend::BackendError;
+use crate::backend::long_field::LongField;
 use crate::kernel::{Scalars, Status};
 use crate::law::imbalance;
 use crate::solver::{ContactSolver, Hold, Load, MakeBackend, Outcome, Problem, Start};
@@ -150,7 +151,7 @@ impl Attempt<'_> {
 
     /// The gap after each point of the surface has moved by its own imbalance over the stiffness of the shortest wave, as far
     /// as the wall lets it.
-    fn moved_by_points(&mut self, mean_pressure: f64) -> Result<Vec<f64>, BackendError> {
+    fn moved_by_points(&mut self, mean_pressure: f64) -> Result<LongField<f64>, BackendError> {
         let problem = self.problem;
         let stiffest = problem.stiffness_max();
         let mut gap = self.solver.gap()?;

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use super::evaluation::PointState;
 use super::pull_off::PullOff;
 use super::row::StepRow;
+use crate::backend::long_field::LongField;
 
 /// The name of the gap among the fields of a checkpoint.
 pub(super) const GAP: &str = "gap";
@@ -15,7 +16,7 @@ pub struct CheckpointField {
     /// Which ones.
     pub name: String,
     /// Over all solved points, reduced, as precise as the backend holds them.
-    pub values: Arc<Vec<f64>>,
+    pub values: Arc<LongField<f64>>,
 }
 
 /// The state from which the step after a converged one starts, and the totals of the steps so far that are
@@ -53,11 +54,11 @@ impl Checkpoint {
     /// The values of a field, if it is there.
     pub fn field(&self, name: &str) -> Option<&[f64]> {
         let found = self.fields.iter().find(|field| field.name == name);
-        found.map(|field| field.values.as_slice())
+        found.map(|field| &**field.values)
     }
 
     /// The same without a copy, for who keeps them.
-    pub(crate) fn shared(&self, name: &str) -> Option<Arc<Vec<f64>>> {
+    pub(crate) fn shared(&self, name: &str) -> Option<Arc<LongField<f64>>> {
         let found = self.fields.iter().find(|field| field.name == name);
         found.map(|field| Arc::clone(&field.values))
     }

@@ -6,6 +6,7 @@ use super::control::{Controller, Position};
 use super::perimeter::{Perimeter, STAIRCASE};
 use super::row::State;
 use super::setup::Setup;
+use crate::backend::long_field::LongField;
 use crate::backend::{BackendError, host_fields};
 use crate::grid::Boundary;
 use crate::law::{Law, Support, imbalance, net_pressure};
@@ -31,9 +32,9 @@ pub enum PointState {
 #[derive(Clone, Debug)]
 pub struct Evaluation {
     /// Gap, m, shape `[ny, nx]`.
-    pub gap: Vec<f64>,
+    pub gap: LongField<f64>,
     /// Net pressure, Pa, positive in compression, shape `[ny, nx]`.
-    pub pressure: Vec<f64>,
+    pub pressure: LongField<f64>,
     /// Constant that turns gap + heights into the displacement, m.
     pub displacement_offset: f64,
     /// State of each point.
@@ -67,9 +68,9 @@ pub struct Evaluation {
 /// Solved fields over all solved points, reduced, and the mean pressure that is held.
 pub struct Solved<'a> {
     /// Gap; below zero it is the plastic indentation of this step. The result takes its place.
-    pub gap: Vec<f64>,
+    pub gap: LongField<f64>,
     /// K*(g + h). The net pressure takes its place.
-    pub elastic: Vec<f64>,
+    pub elastic: LongField<f64>,
     /// Mean over all solved points of the offset by the history of a viscoelastic solid.
     pub mean_offset: f64,
     /// Depth by which plastic indentation had lowered the heights before, over all solved points; `None`

@@ -27,9 +27,9 @@ pub(super) fn start(attempt: &mut Attempt, load: &Load) -> Result<Start, Backend
             || controller.undeformed_gap(attempt.value, attempt.solver.plastic_depths());
         return Ok(
             if problem.boundary == Boundary::Free || controller.is_sprung() {
-                Start::Gap(undeformed())
+                Start::Gap(undeformed().into())
             } else if closes {
-                Start::Gap(problem.moved_to(undeformed(), 0.0))
+                Start::Gap(problem.moved_to(undeformed(), 0.0).into())
             } else {
                 Start::Cold
             },

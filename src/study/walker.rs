@@ -12,6 +12,7 @@ use super::setup::Setup;
 use super::start::start;
 use super::step::{SolvedStep, separated, unreachable};
 use crate::backend::BackendError;
+use crate::backend::long_field::LongField;
 use crate::kernel::Scalars;
 use crate::law::Law;
 use crate::scene::Control;
@@ -20,7 +21,7 @@ use crate::solver::{ContactSolver, MakeBackend, Problem};
 /// The state that one load leaves for the next.
 pub(super) struct Carried {
     /// Gap over all solved points, reduced; `None` where the surfaces are separated.
-    gap: Option<Arc<Vec<f64>>>,
+    gap: Option<Arc<LongField<f64>>>,
     /// Of another process: the stiffness of the zero mode under which it evaluated the pressure of that gap.
     evaluated_under: Option<f64>,
     /// States of the effects, in their order.

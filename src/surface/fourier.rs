@@ -3,12 +3,14 @@
 //! A half spectrum is stored by columns: element `kx * ny + ky` for `kx = 0 .. columns`, all `ky`.
 //! Columns beyond those stored are zero, so a band-limited surface needs no full spectrum.
 
+use std::ops::DerefMut;
 use std::sync::Arc;
 
 use num_complex::Complex;
 use rayon::prelude::*;
 use rustfft::Fft;
 
+use crate::backend::long_field::LongField;
 use crate::grid::Grid;
 use crate::plans::Planned;
 
@@ -22,7 +24,10 @@ const COLUMNS_TOGETHER: usize = 8;
 /// `columns` has length `stored * ny` with `stored <= nx/2 + 1`; the missing half follows from
 /// `H(-q) = conj H(q)`. Returns shape `[ny, nx]`. No factor is applied: the coefficients are those of
 /// the sum, not of an unscaled transform.
-pub fn synthesise(grid: &Grid, mut columns: Vec<Complex<f64>>) -> Vec<f64> {
+pub fn synthesise(
+    grid: &Grid,
+    mut columns: impl DerefMut<Target = [Complex<f64>]> + Sync,
+) -> Vec<f64> {
     let (nx, ny) = (grid.nx, grid.ny);
     debug_assert!(columns.len().is_multiple_of(ny) && columns.len() / ny <= nx / 2 + 1);
     transform_columns(&mut columns, ny, &f64::complex_backward(ny));
@@ -82,10 +87,10 @@ pub(super) fn fill_row(
 }
 
 /// Half spectra of rows of heights, unscaled, row by row.
-pub(super) fn spectrum_of_rows(grid: &Grid, heights: &[f64]) -> Vec<Complex<f64>> {
+pub(super) fn spectrum_of_rows(grid: &Grid, heights: &[f64]) -> LongField<Complex<f64>> {
     let (nx, stored) = (grid.nx, grid.nx / 2 + 1);
     let along_x = f64::real_forward(nx);
-    let mut rows = vec![Complex::default(); stored * (heights.len() / nx)];
+    let mut rows = LongField::zeros(stored * (heights.len() / nx));
     rows.par_chunks_mut(stored)
         .zip(heights.par_chunks(nx))
         .for_each_init(

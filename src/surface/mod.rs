@@ -51,8 +51,8 @@ pub use outline::{MapOutline, Outline, Source};
 
 use std::sync::Arc;
 
-use crate::backend::Share;
 use crate::backend::ranks::Ranks;
+use crate::backend::{Share, host_fields};
 use crate::grid::Grid;
 use crate::scene::{Boundary, GridScene, Scene, SelfAffineScene, SurfacePart};
 use crate::shared_values::SharedValues;
@@ -289,12 +289,11 @@ fn sum_of(
     boundary: Boundary,
     warnings: &mut Vec<String>,
 ) -> Result<Vec<f64>, SurfaceError> {
-    let mut heights = zeros(grid, share)?;
+    let mut heights = reserved(grid, share)?;
     for (index, part) in parts.iter().enumerate() {
         let mut found = Vec::new();
         match maps[index].take() {
             Some(map) => {
-                add(&mut heights, &map.heights);
                 if let SurfacePart::File(file) = part
                     && !file.preparation.profile
                 {
@@ -302,6 +301,7 @@ fn sum_of(
                     found.extend(map.stretch(grid, points));
                 }
                 found.extend(map.warnings);
+                add(&mut heights, map.heights);
             }
             None => add_part(&mut heights, part, grid, share, boundary, &mut found)
                 .map_err(|problem| part_error(index, problem))?,
@@ -309,11 +309,12 @@ fn sum_of(
         let named = |warning| format!("[[surface]] {}: {warning}", index + 1);
         warnings.extend(found.into_iter().map(named));
     }
+    started(&mut heights, share);
     Ok(heights)
 }
 
-/// Zero heights of the held rows, if this machine's memory holds them.
-fn zeros(grid: &Grid, share: &Share) -> Result<Vec<f64>, SurfaceError> {
+/// Memory for the heights of the held rows, if this machine has so much. It is empty until the first part.
+fn reserved(grid: &Grid, share: &Share) -> Result<Vec<f64>, SurfaceError> {
     let mut heights = Vec::new();
     let reserved = heights.try_reserve_exact(share.surface_len());
     if share.any(reserved.is_err()) {
@@ -321,13 +322,20 @@ fn zeros(grid: &Grid, share: &Share) -> Result<Vec<f64>, SurfaceError> {
             points: [grid.nx, grid.ny],
         });
     }
-    heights.resize(share.surface_len(), 0.0);
     Ok(heights)
+}
+
+/// Heights to which a shape can be added: zeros before the first part.
+fn started<'a>(heights: &'a mut Vec<f64>, share: &Share) -> &'a mut [f64] {
+    if heights.is_empty() {
+        heights.resize(share.surface_len(), 0.0);
+    }
+    heights
 }
 
 /// Adds one part to the heights.
 fn add_part(
-    heights: &mut [f64],
+    heights: &mut Vec<f64>,
     part: &SurfacePart,
     grid: &Grid,
     share: &Share,
@@ -344,26 +352,28 @@ fn add_part(
         SurfacePart::Flat => Ok(()),
         SurfacePart::Sphere { radius, centre } => {
             warnings.extend(place(*centre).warning(grid));
-            shapes::add_sphere(heights, grid, *radius, place(*centre))
+            shapes::add_sphere(started(heights, share), grid, *radius, place(*centre))
         }
         SurfacePart::Cone { half_angle, centre } => {
             warnings.extend(place(*centre).warning(grid));
-            shapes::add_cone(heights, grid, *half_angle, place(*centre))
+            shapes::add_cone(started(heights, share), grid, *half_angle, place(*centre))
         }
         SurfacePart::Wavy {
             amplitude,
             wavelength,
-        } => shapes::add_waves(heights, grid, *amplitude, *wavelength, boundary, first_row),
+        } => {
+            let heights = started(heights, share);
+            shapes::add_waves(heights, grid, *amplitude, *wavelength, boundary, first_row)
+        }
         SurfacePart::SelfAffine(scene) => {
             let rough = self_affine::build(scene, grid, share, warnings)?;
-            add(heights, &rough);
+            add(heights, rough);
             Ok(())
         }
         SurfacePart::Heights(array) => {
-            add(
-                heights,
-                &array::heights(array, grid)?[first_row * grid.nx..],
-            );
+            let whole = array::heights(array, grid)?;
+            let held = &whole[first_row * grid.nx..][..share.surface_len()];
+            add(heights, held.to_vec());
             Ok(())
         }
         // A file's heights were read and added before.
@@ -410,9 +420,11 @@ impl SurfacePart {
     }
 }
 
-/// Adds heights point by point.
-fn add(heights: &mut [f64], more: &[f64]) {
-    for (height, more) in heights.iter_mut().zip(more) {
-        *height += more;
+/// Adds heights point by point; the first ones are taken as they are.
+fn add(heights: &mut Vec<f64>, more: Vec<f64>) {
+    if heights.is_empty() {
+        *heights = more;
+    } else {
+        host_fields::change(heights, |point, height| *height += more[point]);
     }
 }

@@ -13,6 +13,7 @@ use super::error::PartError;
 use super::spectrum::SelfAffineSpectrum;
 use super::{across, fourier};
 use crate::backend::Share;
+use crate::backend::long_field::LongField;
 use crate::grid::Grid;
 use crate::scene::{Roughness, SelfAffineScene};
 
@@ -167,7 +168,7 @@ impl Band {
 /// `|l| >= ny/2` are left out; the others do not change with the grid.
 pub fn heights(spectrum: &SelfAffineSpectrum, grid: &Grid, seed: u64) -> Vec<f64> {
     let (stored, fill) = coefficients(spectrum, grid, seed);
-    let mut columns = vec![Complex::default(); stored * grid.ny];
+    let mut columns = LongField::zeros(stored * grid.ny);
     let lines = columns.par_chunks_mut(grid.ny).enumerate();
     lines.for_each(|(k, column)| fill(k, column));
     fourier::synthesise(grid, columns)

@@ -100,7 +100,11 @@ pub fn convolve(
     backend.run(&STORE_FIELD, level, &[sum]);
     let scalars = backend.scalars()?;
     assert_eq!(backend.transforms(), 4.0, "{nx} x {ny}");
-    Ok((backend.read(result)?, backend.read(sum)?, scalars))
+    Ok((
+        backend.read(result)?.into(),
+        backend.read(sum)?.into(),
+        scalars,
+    ))
 }
 
 fn convolution_agrees_with_the_processor() {
@@ -180,7 +184,7 @@ fn a_shut_gate_leaves_everything_as_it_was() {
     let seen = backend.scalars().expect("nothing has failed");
     assert_eq!(format!("{seen:?}"), format!("{scalars:?}"));
     assert_eq!(backend.transforms(), 0.5);
-    assert_eq!(backend.read(field).expect("nothing has failed"), values);
+    assert_eq!(*backend.read(field).expect("nothing has failed"), *values);
 }
 
 fn what_cannot_be_done_is_an_error_where_the_host_waits() {

@@ -268,11 +268,10 @@ pub fn run(
     }
     let written = fields[kernel.written()].to_vec();
     let mut read = |field| {
-        backend
-            .read(field)
-            .unwrap_or_else(|error| panic!("{error}"))
+        let values = backend.read(field);
+        values.unwrap_or_else(|error| panic!("{error}")).into()
     };
-    let mut traces: Vec<_> = written.into_iter().map(&mut read).collect();
+    let mut traces: Vec<Vec<f64>> = written.into_iter().map(&mut read).collect();
     if gives {
         traces.push(read(lines));
     }
@@ -500,6 +499,7 @@ fn device_exponentials(device: &GpuDevice, values: &[f64], less_one: bool) -> Ve
     backend
         .read(result)
         .unwrap_or_else(|error| panic!("{error}"))
+        .into()
 }
 
 /// The device's own exp is not made for double precision, so it is put together from additions and
@@ -582,8 +582,14 @@ fn fields_are_copied_on_the_device() {
         );
     }
     let rounded: Vec<f64> = values.iter().map(|&x| f64::from(x as f32)).collect();
-    assert_eq!(single.read(places[1]).expect("nothing has failed"), rounded);
-    assert_eq!(double.read(places[0]).expect("nothing has failed"), rounded);
+    assert_eq!(
+        *single.read(places[1]).expect("nothing has failed"),
+        *rounded
+    );
+    assert_eq!(
+        *double.read(places[0]).expect("nothing has failed"),
+        *rounded
+    );
 }
 
 /// Where a field takes more slabs in double than in single precision, iterations that are corrected lie as
@@ -612,7 +618,7 @@ fn fields_in_slabs_are_copied_on_the_device() {
         .unwrap_or_else(|error| panic!("{error}"));
     assert_eq!(single.traffic().fields_up + double.traffic().fields_down, 0);
     let rounded: Vec<f64> = values.iter().map(|&x| f64::from(x as f32)).collect();
-    assert_eq!(single.read(here).expect("nothing has failed"), rounded);
+    assert_eq!(*single.read(here).expect("nothing has failed"), *rounded);
 }
 
 /// All numbers of the scalars, flags and status included.

@@ -88,7 +88,7 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) ->
     backend.run(&STORE_FIELD, level, &[result]);
     let energy = backend.scalars().expect("nothing fails").curvature;
     assert_eq!(backend.transforms(), 2.0, "{nx} x {ny}");
-    (backend.read(result).expect("nothing fails"), energy)
+    (backend.read(result).expect("nothing fails").into(), energy)
 }
 
 /// Slabs of a power of two and of other sizes, spectra in parts, legs of butterflies that lie in one
@@ -262,9 +262,8 @@ fn run(
     let mut traces = fields[kernel.written()].to_vec();
     traces.push(lines);
     let read = |field| {
-        backend
-            .read(field)
-            .unwrap_or_else(|error| panic!("{error}"))
+        let values = backend.read(field);
+        values.unwrap_or_else(|error| panic!("{error}")).into()
     };
     let written = traces.into_iter().map(read).collect();
     let sums = kernel.sums.iter().map(|&sum| scalars.sums.get(sum));
@@ -366,8 +365,8 @@ fn solve(device: &GpuDevice, problem: &Problem, load: &Load) -> (Outcome, Vec<f6
     let pressure = solver.elastic_pressure();
     (
         outcome,
-        gap,
-        pressure.unwrap_or_else(|error| panic!("{error}")),
+        gap.into(),
+        pressure.unwrap_or_else(|error| panic!("{error}")).into(),
     )
 }
 

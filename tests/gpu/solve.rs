@@ -39,10 +39,14 @@ fn solve(
         .unwrap_or_else(|error| panic!("{error}"));
     Solution {
         outcome,
-        gap: solver.gap().unwrap_or_else(|error| panic!("{error}")),
+        gap: solver
+            .gap()
+            .unwrap_or_else(|error| panic!("{error}"))
+            .into(),
         pressure: solver
             .elastic_pressure()
-            .unwrap_or_else(|error| panic!("{error}")),
+            .unwrap_or_else(|error| panic!("{error}"))
+            .into(),
         transforms: solver.transforms(),
     }
 }
@@ -359,7 +363,7 @@ fn true_residual(problem: &Problem, load: &Load, gap: &[f64]) -> f64 {
     let mut backend = cpu::double(None);
     let mut solver = ContactSolver::new(&mut *backend, problem);
     solver
-        .begin(load, &Start::Gap(gap.to_vec()), TIGHT, false)
+        .begin(load, &Start::Gap(gap.to_vec().into()), TIGHT, false)
         .and_then(|()| solver.evaluate())
         .unwrap_or_else(|error| panic!("{error}"))
         .residual

@@ -93,7 +93,10 @@ macro_rules! passed_on {
         fn write(&mut self, field: Field, values: &[f64]) {
             self.inner.write(field, values);
         }
-        fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+        fn read(
+            &mut self,
+            field: Field,
+        ) -> Result<tabor::backend::long_field::LongField<f64>, BackendError> {
             self.inner.read(field)
         }
         fn set_law_factor(&mut self, factor: Field) {

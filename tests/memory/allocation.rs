@@ -81,7 +81,7 @@ fn iterate(setup: &Setup, value: f64) -> [usize; 3] {
     let mut backend = cpu::double(None);
     let mut solver = ContactSolver::new(&mut *backend, &setup.problem);
     let load = controller.load(value);
-    let start = Start::Gap(controller.undeformed_gap(value, None));
+    let start = Start::Gap(controller.undeformed_gap(value, None).into());
     // The counter counts: reading a field makes a vector.
     let region = Region::new(ALLOCATOR);
     drop(solver.gap());

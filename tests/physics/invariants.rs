@@ -217,12 +217,11 @@ impl Contact {
             problem.scales.length / units.vertical,
             problem.scales.pressure / units.pressure(),
         ];
-        let scaled =
-            |values: Vec<f64>, unit: f64| values.into_iter().map(|value| value * unit).collect();
+        let scaled = |values: &[f64], unit: f64| values.iter().map(|value| value * unit).collect();
         Solution {
-            gap: scaled(gap, length),
-            y: scaled(y, pressure),
-            traction: scaled(traction, pressure),
+            gap: scaled(&gap, length),
+            y: scaled(&y, pressure),
+            traction: scaled(&traction, pressure),
             mean_pressure: outcome.mean_pressure * pressure,
             gap_error: gap_error * length,
             pressure_error: gap_error * problem.stiffness_max() * pressure,

@@ -73,7 +73,7 @@ fn by_backend(
 ) -> Walked {
     let mut backend = make();
     let mut solver = ContactSolver::new(&mut *backend, problem);
-    let start = Start::Gap(start.to_vec());
+    let start = Start::Gap(start.to_vec().into());
     solver
         .begin(load, &start, TOLERANCE, careful)
         .expect("begins");
@@ -84,7 +84,7 @@ fn by_backend(
         let scalars = solver.iterate().expect("iterates");
         if scalars.iterations as usize > before && scalars.accepted {
             iterates.push(Iterate {
-                gap: solver.gap().expect("gap"),
+                gap: solver.gap().expect("gap").into(),
                 step: scalars.step,
                 residual: scalars.residual,
             });
@@ -100,7 +100,7 @@ fn by_backend(
         iterates,
         status: outcome.status,
         iterations: outcome.iterations,
-        gap: solver.gap().expect("gap"),
+        gap: solver.gap().expect("gap").into(),
         mean_pressure: outcome.mean_pressure,
     }
 }

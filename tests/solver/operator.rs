@@ -55,7 +55,7 @@ fn apply(
     backend.multiply(spectrum, true, Gate::Always);
     backend.run(&STORE_FIELD, level, &[result]);
     let curvature = backend.scalars().expect("cpu").curvature;
-    (backend.read(result).expect("cpu"), curvature)
+    (backend.read(result).expect("cpu").into(), curvature)
 }
 
 /// Seeded values between -1 and 1.

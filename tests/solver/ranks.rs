@@ -61,8 +61,8 @@ impl Observer for Found {
         self.rows.push(format!("{row:?}"));
         if let Some(evaluation) = step.evaluation {
             let bits = |values: Vec<f64>| values.into_iter().map(f64::to_bits).collect();
-            self.fields.push(bits(evaluation.gap));
-            self.fields.push(bits(evaluation.pressure));
+            self.fields.push(bits(evaluation.gap.into()));
+            self.fields.push(bits(evaluation.pressure.into()));
         }
         Ok(())
     }

@@ -122,7 +122,7 @@ impl<T: CpuReal> Transform<T> {
     /// One round: `parts` are the groups that each rank takes, `here` those of this one.
     #[allow(clippy::too_many_arguments)]
     fn round(
-        &self,
+        &mut self,
         factors: &[T],
         first_group: usize,
         energy: bool,
@@ -183,17 +183,20 @@ impl<T: CpuReal> Transform<T> {
             },
         )?;
         if held > 0 {
-            let pieces = own_rows.par_chunks_exact(per_group).zip(&groups);
-            pieces.for_each(|(piece, &group)| self.take_rows(group, held, piece));
+            let pieces: Vec<(usize, &[T])> = groups
+                .into_iter()
+                .zip(own_rows.chunks_exact(per_group))
+                .collect();
+            self.take_rows(held, &pieces);
         }
         Ok(())
     }
 
     /// Lays down the held rows of a group's columns, column by column.
     fn lay_rows(&self, group: usize, held: usize, piece: &mut [T]) {
-        for (block, tile) in self.tiles[group..].iter().step_by(self.groups).enumerate() {
+        let tiles = self.tiles()[group..].iter().step_by(self.groups);
+        for (block, tile) in tiles.enumerate() {
             let rows = block * BLOCK..held.min((block + 1) * BLOCK);
-            let tile = tile.lock();
             let columns = piece.chunks_exact_mut(PAIR * held);
             for (line, column) in tile.chunks_exact(BLOCK).zip(columns) {
                 lay(
@@ -204,16 +207,19 @@ impl<T: CpuReal> Transform<T> {
         }
     }
 
-    /// Puts them back.
-    fn take_rows(&self, group: usize, held: usize, piece: &[T]) {
-        for (block, tile) in self.tiles[group..].iter().step_by(self.groups).enumerate() {
+    /// Puts those of some groups back.
+    fn take_rows(&mut self, held: usize, pieces: &[(usize, &[T])]) {
+        let groups = self.groups;
+        let blocks = self.tiles_mut().par_chunks_exact_mut(groups);
+        blocks.enumerate().for_each(|(block, tiles)| {
             let rows = block * BLOCK..held.min((block + 1) * BLOCK);
-            let mut tile = tile.lock();
-            let columns = piece.chunks_exact(PAIR * held);
-            for (line, column) in tile.chunks_exact_mut(BLOCK).zip(columns) {
-                take_up(&column[PAIR * rows.start..PAIR * rows.end], line);
+            for &(group, piece) in pieces {
+                let columns = piece.chunks_exact(PAIR * held);
+                for (line, column) in tiles[group].chunks_exact_mut(BLOCK).zip(columns) {
+                    take_up(&column[PAIR * rows.start..PAIR * rows.end], line);
+                }
             }
-        }
+        });
     }
 }
 
@@ -230,7 +236,6 @@ mod tests {
     /// Spectra of some rows of a shape, each number told by its row and column.
     fn fill(tiles: &mut [Tile<f64>], groups: usize, rows: Range<usize>) {
         for (place, tile) in tiles.iter_mut().enumerate() {
-            let tile = tile.get_mut();
             for (at, value) in tile.iter_mut().enumerate() {
                 let row = rows.start + place / groups * BLOCK + at % BLOCK;
                 let column = place % groups * BLOCK + at / BLOCK;
@@ -244,7 +249,6 @@ mod tests {
     fn taken(tiles: &[Tile<f64>], groups: usize, held: usize, columns: usize) -> Vec<Vec<u64>> {
         let at = |row: usize, column: usize| {
             let tile = &tiles[row / BLOCK * groups + column / BLOCK];
-            let tile = tile.lock();
             tile[column % BLOCK * BLOCK + row % BLOCK]
         };
         let line = |row: usize| (0..columns).map(move |column| at(row, column));
@@ -266,9 +270,9 @@ mod tests {
             let mut one = Transform::<f64>::new(shape, points[1]);
             one.take();
             let groups = one.groups;
-            fill(&mut one.tiles, groups, 0..points[1]);
+            fill(one.tiles_mut(), groups, 0..points[1]);
             let energy = one.multiply(&factors, true);
-            let all = taken(&one.tiles, groups, points[1], columns);
+            let all = taken(one.tiles(), groups, points[1], columns);
             for round in [
                 1,
                 3 * PAIR * size_of::<f64>() * BLOCK * points[1],
@@ -285,13 +289,13 @@ mod tests {
                             let at = |group: usize| (group * BLOCK).min(columns) * half;
                             let mut here = Transform::<f64>::new(shape, rows.len());
                             here.take();
-                            fill(&mut here.tiles, groups, rows.clone());
+                            fill(here.tiles_mut(), groups, rows.clone());
                             let factors = &factors[at(own.start)..at(own.end)];
                             let found = here
                                 .multiply_across(factors, true, &slabs, round)
                                 .expect("all ranks are here");
                             assert_eq!(found.to_bits(), energy.to_bits());
-                            let held = taken(&here.tiles, groups, rows.len(), columns);
+                            let held = taken(here.tiles(), groups, rows.len(), columns);
                             assert!(held == all[rows], "{points:?}, rank {number}, {round}");
                         });
                     }

@@ -2,7 +2,6 @@
 
 use std::ops::Range;
 
-use parking_lot::Mutex;
 use rustfft::num_complex::Complex;
 
 use crate::backend::Shape;
@@ -16,9 +15,8 @@ pub(super) const BLOCK: usize = 8;
 pub(super) const TILE: usize = BLOCK * BLOCK;
 
 /// Spectra of eight rows at eight columns, column by column. Who works on rows has whole blocks of tiles for
-/// itself; who works on columns has tiles from all blocks, which only a lock on each can say: it costs some
-/// percent of the column's transform, and a second set of tiles would cost a field.
-pub(super) type Tile<T> = Mutex<[Complex<T>; TILE]>;
+/// itself; who works on columns has a group of tiles from each block.
+pub(super) type Tile<T> = [Complex<T>; TILE];
 
 /// The rows of a level that this process holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -22,6 +22,7 @@ use rayon::prelude::*;
 
 use super::ranks::{RankError, Ranks};
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values, check_fields};
+use crate::backend::long_field::LongField;
 use crate::kernel::{Form, Gate, Kernel, Params, SUMS, ScalarKernel, Scalars, Twin, Whole};
 use crate::plans::Planned;
 use crate::real::Real;
@@ -49,9 +50,9 @@ pub fn mixed(ranks: Option<Arc<dyn Ranks>>) -> Box<dyn Backend + Send> {
 }
 
 /// The backend in one kind of number. Nobody else names it: whoever does compiles it again.
-struct CpuBackend<T: Real> {
+struct CpuBackend<T: CpuReal> {
     levels: Vec<LevelSpace<T>>,
-    fields: Vec<Vec<T>>,
+    fields: Vec<LongField<T>>,
     spectra: Vec<Vec<T>>,
     /// The field of factors on the law's tension.
     law_factor: Option<Field>,
@@ -68,7 +69,7 @@ struct CpuBackend<T: Real> {
     failure: Option<RankError>,
 }
 
-struct LevelSpace<T: Real> {
+struct LevelSpace<T: CpuReal> {
     shape: Shape,
     /// Its rows over the ranks.
     slabs: Option<Slabs>,
@@ -79,7 +80,7 @@ struct LevelSpace<T: Real> {
     partials: Vec<[f64; SUMS]>,
 }
 
-impl<T: Real> LevelSpace<T> {
+impl<T: CpuReal> LevelSpace<T> {
     /// Points that this process holds.
     fn len(&self) -> usize {
         self.held.count * self.shape.points[0]
@@ -96,8 +97,8 @@ impl<T: Real> LevelSpace<T> {
 }
 
 /// A field that a kernel reads at rows of its own choice, with the rows beside the held ones.
-fn whole_field<'a, T: Real>(
-    fields: &'a [Vec<T>],
+fn whole_field<'a, T: CpuReal>(
+    fields: &'a [LongField<T>],
     levels: &[LevelSpace<T>],
     field: Option<Field>,
     edges: &'a [Vec<T>; 2],
@@ -169,7 +170,7 @@ impl<T: CpuReal> CpuBackend<T> {
     fn take(&mut self, field: Field) {
         let stored = &mut self.fields[field.index];
         if stored.is_empty() {
-            *stored = vec![T::zero(); self.levels[field.level.0].len()];
+            *stored = LongField::zeros(self.levels[field.level.0].len());
         }
     }
 
@@ -260,7 +261,7 @@ impl<T: CpuReal> CpuBackend<T> {
         let around_edges = self.edges(around);
         let whole_edges = self.edges(whole);
         // Written fields are lifted out, so that the others can be borrowed meanwhile.
-        let mut lifted: [Vec<T>; 4] = Default::default();
+        let mut lifted: [LongField<T>; 4] = Default::default();
         for (slot, field) in fields[kernel.written()].iter().enumerate() {
             lifted[slot] = std::mem::take(&mut self.fields[field.index]);
         }
@@ -355,7 +356,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
 
     fn field(&mut self, level: Level, _name: &'static str) -> Field {
         let points = self.levels[level.0].len();
-        self.fields.push(vec![T::zero(); points]);
+        self.fields.push(LongField::zeros(points));
         Field {
             level,
             index: self.fields.len() - 1,
@@ -384,11 +385,11 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
         self.store(field, values, T::from_double);
     }
 
-    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+    fn read(&mut self, field: Field) -> Result<LongField<f64>, BackendError> {
         self.take(field);
         self.failed()?;
         let stored = &self.fields[field.index];
-        let mut values = vec![0.0; stored.len()];
+        let mut values = LongField::zeros(stored.len());
         let pieces = values.par_chunks_mut(PIECE).zip(stored.par_chunks(PIECE));
         pieces.for_each(|(values, stored)| {
             for (value, stored) in values.iter_mut().zip(stored) {
@@ -433,7 +434,7 @@ impl<T: CpuReal> Backend for CpuBackend<T> {
     }
 
     fn release(&mut self, field: Field) {
-        self.fields[field.index] = Vec::new();
+        self.fields[field.index] = LongField::default();
     }
 
     fn release_work(&mut self, level: Level) {

@@ -139,7 +139,7 @@ struct Pairing<'a, T: Real, const FORWARD: bool> {
 /// A bin in the tiles of a block.
 #[inline(always)]
 fn bin<T: Real>(tiles: &mut [Tile<T>], at: usize) -> &mut Bin<T> {
-    let (bins, _) = tiles[at / BLOCK].get_mut().as_chunks_mut::<BLOCK>();
+    let (bins, _) = tiles[at / BLOCK].as_chunks_mut::<BLOCK>();
     &mut bins[at % BLOCK]
 }
 
@@ -226,7 +226,6 @@ fn paired<T: Real, const FORWARD: bool>(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use parking_lot::Mutex;
     use rustfft::num_traits::Zero;
 
     /// Rows of many lengths, there and back, beside `realfft`: the same bits.
@@ -245,7 +244,7 @@ mod tests {
         let mut scratch = vec![Complex::zero(); transform.scratch_len()];
         let zero = Complex::<T>::zero();
         let mut tiles: Vec<Tile<T>> = (0..columns.div_ceil(BLOCK))
-            .map(|_| Mutex::new([zero; BLOCK * BLOCK]))
+            .map(|_| [zero; BLOCK * BLOCK])
             .collect();
         let mut spectrum = vec![zero; columns];
         for (row, values) in rows.iter().enumerate() {

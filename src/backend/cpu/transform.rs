@@ -15,11 +15,12 @@ use super::across::{PAIR, Pieces, lay, take_up};
 use super::blocks::{BLOCK, Job, TILE, Tile, run_blocks};
 use super::plans::Plans;
 use crate::backend::Shape;
+use crate::backend::long_field::LongField;
 use crate::kernel::Form;
 use crate::real::Real;
 
 /// Transform plans and work space of one level.
-pub(super) struct Transform<T: Real> {
+pub(super) struct Transform<T: CpuReal> {
     pub(super) shape: Shape,
     /// Rows that this process holds.
     rows: usize,
@@ -29,7 +30,9 @@ pub(super) struct Transform<T: Real> {
     pub(super) groups: usize,
     plans: Plans<T>,
     /// Spectra of the held rows, then of the columns too: block, group, column in the group, row in the block.
-    pub(super) tiles: Vec<Tile<T>>,
+    spectra: LongField<Complex<T>>,
+    /// Room for the tiles in the order of the columns; empty between two passes.
+    by_columns: Vec<Option<&'static mut Tile<T>>>,
     /// Rows and columns on their way between ranks.
     pub(super) exchanged: [Vec<T>; 2],
     /// Energy of each group.
@@ -75,7 +78,8 @@ impl<T: CpuReal> Transform<T> {
             columns,
             groups,
             plans,
-            tiles: Vec::new(),
+            spectra: LongField::default(),
+            by_columns: Vec::new(),
             exchanged: Default::default(),
             energies: vec![0.0; groups],
             scratch,
@@ -84,17 +88,27 @@ impl<T: CpuReal> Transform<T> {
 
     /// Lets go of the spectra and of what was exchanged.
     pub fn release(&mut self) {
-        self.tiles = Vec::new();
+        self.spectra = LongField::default();
+        self.by_columns = Vec::new();
         self.exchanged = Default::default();
     }
 
     /// Takes memory for the spectra, at first and after they were let go.
     pub(super) fn take(&mut self) {
-        if self.tiles.is_empty() {
+        if self.spectra.is_empty() {
             let blocks = self.rows.div_ceil(BLOCK);
-            self.tiles
-                .resize_with(blocks * self.groups, || Mutex::new([Complex::zero(); TILE]));
+            self.spectra = LongField::zeros(blocks * self.groups * TILE);
         }
+    }
+
+    /// The spectra in tiles: block, group.
+    pub(super) fn tiles(&self) -> &[Tile<T>] {
+        self.spectra.as_chunks().0
+    }
+
+    /// The same, to write.
+    pub(super) fn tiles_mut(&mut self) -> &mut [Tile<T>] {
+        self.spectra.as_chunks_mut().0
     }
 
     /// Hands lines to the job's twin block by block: those of the inverse transform, or those that were
@@ -102,7 +116,7 @@ impl<T: CpuReal> Transform<T> {
     pub fn rows(&mut self, job: Job<T>, form: Form) {
         self.take();
         let Transform {
-            ref mut tiles,
+            ref mut spectra,
             ref scratch,
             ref plans,
             columns,
@@ -111,7 +125,7 @@ impl<T: CpuReal> Transform<T> {
         } = *self;
         let nx = self.shape.points[0];
         let job = Job {
-            work: tiles,
+            work: spectra.as_chunks_mut().0,
             work_per_block: groups,
             ..job
         };
@@ -123,7 +137,7 @@ impl<T: CpuReal> Transform<T> {
                 plans.rows.part(job.work);
                 for (group, tile) in job.work.iter_mut().enumerate() {
                     let spectra = &mut guard.spectra[..count * columns];
-                    tile_to_rows(tile.get_mut(), spectra, columns, group * BLOCK);
+                    tile_to_rows(tile, spectra, columns, group * BLOCK);
                 }
                 for (line, spectrum) in lines
                     .chunks_exact_mut(nx)
@@ -134,13 +148,13 @@ impl<T: CpuReal> Transform<T> {
             }
             if form.takes_retained() {
                 for (lines, tile) in lines.chunks_mut(2 * TILE).zip(&mut *job.work) {
-                    take_retained(tile.get_mut(), lines);
+                    take_retained(tile, lines);
                 }
             }
             job.call(lines);
             if form.retains() {
                 for (lines, tile) in lines.chunks(2 * TILE).zip(&mut *job.work) {
-                    retain(lines, tile.get_mut());
+                    retain(lines, tile);
                 }
             }
             if form.before_forward() {
@@ -152,7 +166,7 @@ impl<T: CpuReal> Transform<T> {
                 }
                 for (group, tile) in job.work.iter_mut().enumerate() {
                     let spectra = &guard.spectra[..count * columns];
-                    rows_to_tile(spectra, columns, group * BLOCK, tile.get_mut());
+                    rows_to_tile(spectra, columns, group * BLOCK, tile);
                 }
                 plans.rows.pair(job.work);
             }
@@ -163,10 +177,21 @@ impl<T: CpuReal> Transform<T> {
     /// back. Returns `sum K |s_q|^2 / points` over all wavevectors.
     pub fn multiply(&mut self, factors: &[T], energy: bool) -> f64 {
         self.take();
+        let mut spectra = std::mem::take(&mut self.spectra);
         let mut energies = std::mem::take(&mut self.energies);
+        let mut by_columns = emptied(std::mem::take(&mut self.by_columns));
+        let (tiles, _) = spectra.as_chunks_mut();
+        let blocks = tiles.len() / self.groups;
+        by_columns.resize_with(tiles.len(), || None);
+        for (block, tiles) in tiles.chunks_exact_mut(self.groups).enumerate() {
+            for (group, tile) in tiles.iter_mut().enumerate() {
+                by_columns[group * blocks + block] = Some(tile);
+            }
+        }
         self.columns(factors, 0, energy)
-            .run(0..self.groups, &mut energies);
-        self.energies = energies;
+            .run(0, &mut by_columns, &mut energies);
+        self.by_columns = emptied(by_columns);
+        (self.spectra, self.energies) = (spectra, energies);
         self.energies.iter().sum()
     }
 
@@ -179,7 +204,6 @@ impl<T: CpuReal> Transform<T> {
     ) -> Columns<'a, T> {
         let [nx, ny] = self.shape.points;
         Columns {
-            tiles: &self.tiles,
             scratch: &self.scratch,
             forward: &*self.plans.column_forward,
             backward: &*self.plans.column_backward,
@@ -187,7 +211,6 @@ impl<T: CpuReal> Transform<T> {
             first,
             scale: T::from_double(1.0 / self.shape.len() as f64),
             columns: self.columns,
-            groups: self.groups,
             nx,
             ny,
             energy,
@@ -262,6 +285,13 @@ fn copy_rows<T: Real>(from: &[Complex<T>], to: &mut [Complex<T>]) {
     }
 }
 
+/// A list of references without them, to hold others: it keeps its memory, since the new list is collected in the old one's
+/// place.
+fn emptied<'a, T>(mut list: Vec<Option<&mut T>>) -> Vec<Option<&'a mut T>> {
+    list.clear();
+    list.into_iter().map(|_| None).collect()
+}
+
 /// This thread's buffers. Two threads of different pools may meet here; then one waits.
 fn lock<T>(scratch: &[Mutex<Scratch<T>>]) -> MutexGuard<'_, Scratch<T>> {
     let index = rayon::current_thread_index().unwrap_or(0) % scratch.len();
@@ -270,7 +300,6 @@ fn lock<T>(scratch: &[Mutex<Scratch<T>>]) -> MutexGuard<'_, Scratch<T>> {
 
 /// The column part, shared by all its threads.
 pub(super) struct Columns<'a, T: Real> {
-    tiles: &'a [Tile<T>],
     scratch: &'a [Mutex<Scratch<T>>],
     forward: &'a dyn Fft<T>,
     backward: &'a dyn Fft<T>,
@@ -279,40 +308,34 @@ pub(super) struct Columns<'a, T: Real> {
     first: usize,
     scale: T,
     columns: usize,
-    groups: usize,
     nx: usize,
     ny: usize,
     energy: bool,
 }
 
 impl<T: Real> Columns<'_, T> {
-    fn run(&self, range: std::ops::Range<usize>, energies: &mut [f64]) {
-        let count = range.len();
-        if count == 0 {
-            return;
+    /// Some groups from `first` on, with the tiles of each together; their energies.
+    fn run(&self, first: usize, tiles: &mut [Option<&mut Tile<T>>], energies: &mut [f64]) {
+        if let [energy] = energies {
+            *energy = self.group(first, tiles);
+        } else if !energies.is_empty() {
+            let half = energies.len() / 2;
+            let (left_tiles, right_tiles) = tiles.split_at_mut(tiles.len() / energies.len() * half);
+            let (left, right) = energies.split_at_mut(half);
+            rayon::join(
+                || self.run(first, left_tiles, left),
+                || self.run(first + half, right_tiles, right),
+            );
         }
-        if count == 1 {
-            energies[0] = self.group(range.start);
-            return;
-        }
-        let half = count / 2;
-        let middle = range.start + half;
-        let (left, right) = energies.split_at_mut(half);
-        rayon::join(
-            || self.run(range.start..middle, left),
-            || self.run(middle..range.end, right),
-        );
     }
 
     /// One group of columns, in the tiles that hold it.
-    fn group(&self, group: usize) -> f64 {
+    fn group(&self, group: usize, tiles: &mut [Option<&mut Tile<T>>]) -> f64 {
         let guard = &mut *lock(self.scratch);
         let ny = self.ny;
         let count = BLOCK.min(self.columns - group * BLOCK);
-        let tiles = || self.tiles[group..].iter().step_by(self.groups).enumerate();
-        for (block, tile) in tiles() {
+        for (block, tile) in tiles.iter().flatten().enumerate() {
             let rows = BLOCK.min(ny - block * BLOCK);
-            let tile = tile.lock();
             for (place, line) in tile.chunks_exact(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
                 copy_rows(line, &mut guard.column[at..at + rows]);
@@ -321,9 +344,8 @@ impl<T: Real> Columns<'_, T> {
         let mut column = std::mem::take(&mut guard.column);
         let energy = self.convolve(group, &mut column, guard);
         guard.column = column;
-        for (block, tile) in tiles() {
+        for (block, tile) in tiles.iter_mut().flatten().enumerate() {
             let rows = BLOCK.min(ny - block * BLOCK);
-            let mut tile = tile.lock();
             for (place, line) in tile.chunks_exact_mut(BLOCK).take(count).enumerate() {
                 let at = place * ny + block * BLOCK;
                 copy_rows(&guard.column[at..at + rows], line);

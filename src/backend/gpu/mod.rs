@@ -41,6 +41,7 @@ use std::collections::HashMap;
 
 use super::cpu;
 use super::{Backend, BackendError, Factors, Field, Level, Shape, Spectrum, Values};
+use crate::backend::long_field::LongField;
 use crate::kernel::{Gate, Kernel, Params, ScalarKernel, Scalars};
 use crate::law::{Law, LawShader};
 use deciding::Deciding;
@@ -365,7 +366,7 @@ impl Backend for GpuBackend {
         });
     }
 
-    fn read(&mut self, field: Field) -> Result<Vec<f64>, BackendError> {
+    fn read(&mut self, field: Field) -> Result<LongField<f64>, BackendError> {
         let result = self.fetch(field);
         if let Err(error) = &result {
             self.failure.get_or_insert_with(|| error.clone());

@@ -4,6 +4,7 @@ use super::level::ROW_TRANSFORMS_PER_TRANSFORM;
 use super::recorder::Part;
 use super::{GpuBackend, GpuError, layout};
 use crate::backend::Field;
+use crate::backend::long_field::LongField;
 use crate::kernel::{Scalars, Status};
 
 impl GpuBackend {
@@ -41,14 +42,14 @@ impl GpuBackend {
         Ok(scalars)
     }
 
-    pub(super) fn fetch(&mut self, field: Field) -> Result<Vec<f64>, GpuError> {
+    pub(super) fn fetch(&mut self, field: Field) -> Result<LongField<f64>, GpuError> {
         self.checked()?;
         self.settle()?;
         self.traffic.fields_down += 1;
         let plan = self.level_space(field.level)?.plan.clone();
         let slabs = self.field_space(field)?.slabs.clone();
         // Zeros cost nothing until they are written, which many threads do.
-        let mut values = vec![0.0; plan.points()];
+        let mut values = LongField::zeros(plan.points());
         for (slab, buffer) in slabs.iter().enumerate() {
             let mut start = 0;
             for range in plan.slab_ranges(slab) {
