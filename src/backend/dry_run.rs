@@ -46,10 +46,10 @@ impl Place {
     fn work(self, shape: Shape) -> usize {
         let [nx, ny] = shape.points;
         match self {
-            // Tiles of complex numbers, each with its lock.
+            // Tiles of complex numbers, and a reference to each in the order of the columns.
             Place::Double | Place::Single => {
                 let tiles = (nx / 2 + 1).div_ceil(TILE) * ny.div_ceil(TILE);
-                tiles * (TILE * TILE * 2 * self.number() + LOCK)
+                tiles * (TILE * TILE * 2 * self.number() + REFERENCE)
             }
             // Half as many complex numbers as points.
             Place::Gpu | Place::GpuDouble => shape.len() * self.number(),
@@ -83,8 +83,8 @@ pub struct DryRun {
 
 /// Side of the tiles in which the CPU stores spectra.
 const TILE: usize = 8;
-/// Bytes of the lock on one, as far as it needs.
-const LOCK: usize = 8;
+/// Bytes of a reference to one.
+const REFERENCE: usize = 8;
 
 impl Default for DryRun {
     fn default() -> Self {

@@ -1,7 +1,10 @@
 //! Memory of a field, which Linux hands out in large pages where it is long: the first touch of small ones takes a tenth of
 //! the seconds of a solve.
 
+use std::fmt;
 use std::ops::{Deref, DerefMut};
+
+use rayon::prelude::*;
 
 #[cfg(target_os = "linux")]
 use memmap2::{Advice, MmapMut};
@@ -11,23 +14,24 @@ use memmap2::{Advice, MmapMut};
 const LARGE_PAGE: usize = 2 << 20;
 
 /// The values of a field.
-#[derive(Debug)]
-pub enum LongField<T> {
-    /// From the allocator.
-    Short(Vec<T>),
-    /// In pages of its own: so many values from the first large page on.
+pub struct LongField<T>(Memory<T>);
+
+/// Where they are.
+enum Memory<T> {
+    /// With the allocator.
+    Allocated(Vec<T>),
+    /// In pages of their own: so many bytes from the first large page on.
     #[cfg(target_os = "linux")]
-    Long {
+    Mapped {
         pages: MmapMut,
         first: usize,
         bytes: usize,
-        values: std::marker::PhantomData<T>,
     },
 }
 
 impl<T> Default for LongField<T> {
     fn default() -> Self {
-        LongField::Short(Vec::new())
+        Vec::new().into()
     }
 }
 
@@ -35,44 +39,56 @@ impl<T: bytemuck::Pod> LongField<T> {
     /// So many values of 0.
     pub fn zeros(count: usize) -> Self {
         #[cfg(target_os = "linux")]
-        if let Some(long) = Self::in_large_pages(count * size_of::<T>()) {
-            return long;
+        if let Some(mapped) = count.checked_mul(size_of::<T>()).and_then(mapped) {
+            return LongField(mapped);
         }
-        LongField::Short(bytemuck::zeroed_vec(count))
-    }
-
-    /// So many bytes of 0, if they fill a large page. What is beyond the last whole one stays in small pages, so that no more
-    /// memory is taken than the values need.
-    #[cfg(target_os = "linux")]
-    fn in_large_pages(bytes: usize) -> Option<Self> {
-        if bytes < LARGE_PAGE {
-            return None;
-        }
-        let pages = MmapMut::map_anon(bytes + LARGE_PAGE).ok()?;
-        let first = pages.as_ptr().align_offset(LARGE_PAGE);
-        // A kernel without large pages has small ones.
-        let _ = pages.advise_range(Advice::HugePage, first, bytes / LARGE_PAGE * LARGE_PAGE);
-        Some(LongField::Long {
-            pages,
-            first,
-            bytes,
-            values: std::marker::PhantomData,
-        })
+        bytemuck::zeroed_vec(count).into()
     }
 }
+
+/// So many bytes of 0, if they fill a large page.
+#[cfg(target_os = "linux")]
+fn mapped<T>(bytes: usize) -> Option<Memory<T>> {
+    if bytes < LARGE_PAGE {
+        return None;
+    }
+    let pages = MmapMut::map_anon(bytes.checked_add(LARGE_PAGE)?).ok()?;
+    let first = pages.as_ptr().align_offset(LARGE_PAGE);
+    let whole = bytes / LARGE_PAGE * LARGE_PAGE;
+    // A kernel without large pages has small ones.
+    let _ = pages.advise_range(Advice::HugePage, first, whole);
+    // What is beyond the last whole one stays in small pages, so that no more memory is taken than the values need.
+    let _ = pages.advise_range(
+        Advice::NoHugePage,
+        first + whole,
+        pages.len() - first - whole,
+    );
+    #[cfg(feature = "fault-injection")]
+    MAPPED.fetch_add(bytes, std::sync::atomic::Ordering::Relaxed);
+    Some(Memory::Mapped {
+        pages,
+        first,
+        bytes,
+    })
+}
+
+/// Bytes of all fields that were mapped so far, for tests that count: the allocator does not see them.
+#[cfg(feature = "fault-injection")]
+pub static MAPPED: std::sync::atomic::AtomicUsize = std::sync::atomic::AtomicUsize::new(0);
 
 impl<T> From<Vec<T>> for LongField<T> {
     fn from(values: Vec<T>) -> Self {
-        LongField::Short(values)
+        LongField(Memory::Allocated(values))
     }
 }
 
-impl<T: bytemuck::Pod> From<LongField<T>> for Vec<T> {
+/// Without a copy where the values are with the allocator.
+impl<T: bytemuck::Pod + Send + Sync> From<LongField<T>> for Vec<T> {
     fn from(field: LongField<T>) -> Self {
-        match field {
-            LongField::Short(values) => values,
+        match field.0 {
+            Memory::Allocated(values) => values,
             #[cfg(target_os = "linux")]
-            LongField::Long { .. } => field.to_vec(),
+            Memory::Mapped { .. } => field.par_iter().copied().collect(),
         }
     }
 }
@@ -88,6 +104,12 @@ impl<T: bytemuck::Pod> Clone for LongField<T> {
 impl<T: bytemuck::Pod + PartialEq> PartialEq for LongField<T> {
     fn eq(&self, other: &Self) -> bool {
         **self == **other
+    }
+}
+
+impl<T: bytemuck::Pod + fmt::Debug> fmt::Debug for LongField<T> {
+    fn fmt(&self, out: &mut fmt::Formatter) -> fmt::Result {
+        (**self).fmt(out)
     }
 }
 
@@ -113,14 +135,13 @@ impl<T: bytemuck::Pod> Deref for LongField<T> {
     type Target = [T];
 
     fn deref(&self) -> &[T] {
-        match self {
-            LongField::Short(values) => values,
+        match &self.0 {
+            Memory::Allocated(values) => values,
             #[cfg(target_os = "linux")]
-            LongField::Long {
+            Memory::Mapped {
                 pages,
                 first,
                 bytes,
-                ..
             } => bytemuck::cast_slice(&pages[*first..first + bytes]),
         }
     }
@@ -128,14 +149,13 @@ impl<T: bytemuck::Pod> Deref for LongField<T> {
 
 impl<T: bytemuck::Pod> DerefMut for LongField<T> {
     fn deref_mut(&mut self) -> &mut [T] {
-        match self {
-            LongField::Short(values) => values,
+        match &mut self.0 {
+            Memory::Allocated(values) => values,
             #[cfg(target_os = "linux")]
-            LongField::Long {
+            Memory::Mapped {
                 pages,
                 first,
                 bytes,
-                ..
             } => bytemuck::cast_slice_mut(&mut pages[*first..*first + *bytes]),
         }
     }
@@ -162,6 +182,9 @@ mod tests {
                     .enumerate()
                     .all(|(at, &value)| value == at as f64)
             );
+            let copy = field.clone();
+            assert!(copy == field);
+            assert_eq!(Vec::from(copy), *field);
         }
     }
 }

@@ -12,6 +12,8 @@ use crate::surface::{MOST_POINTS, claimed_points};
 const LIMIT: &str = "TABOR_MEMORY";
 /// Address space that the allocator reserves for each thread, used or not (glibc on 64 bits).
 const RESERVED: u64 = 64 << 20;
+/// Address space beside fields in large pages, 2 MiB for each: of more than a solver holds at once.
+const BESIDE_FIELDS: u64 = 64 << 20;
 
 /// Bytes that every machine on which this program starts has: a run that needs no more does not ask the system, which
 /// takes as long as a tenth of a solve on 128 x 128 points.
@@ -164,7 +166,7 @@ fn address_space_left() -> Option<u64> {
     let limit = number("/proc/self/limits", "Max address space")?;
     let kibibytes = number("/proc/self/status", "VmSize:")?;
     let threads = std::thread::available_parallelism().map_or(1, |count| count.get() as u64);
-    Some(limit.saturating_sub(kibibytes * 1024 + threads * RESERVED))
+    Some(limit.saturating_sub(kibibytes * 1024 + threads * RESERVED + BESIDE_FIELDS))
 }
 
 /// Refuses a run on `grid` that needs more memory than there is, with the largest grid that fits.

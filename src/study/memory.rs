@@ -22,9 +22,10 @@ const MPI: u64 = 14 << 20;
 const DRIVERS: u64 = 56 << 20;
 /// Bytes a point of the results of a step: gap and pressure, and a byte for the state.
 pub(crate) const EVALUATION: u64 = 2 * DOUBLE + 1;
-/// Fields below this length stay with the allocator when they are let go (glibc on 64 bits; longer ones go back
+/// Pieces below this length stay with the allocator when they are let go (glibc on 64 bits; longer ones go back
 /// to the system), and do not always fit where another is wanted: at the largest moment about half of one of the
-/// solver's fields was unused. Those of a coarse start stay where the solver's own do not.
+/// solver's fields was unused. Those of a coarse start stay where the solver's own do not. On Linux fields from a large page
+/// (2 MiB) on go back too, and what is left of it is what else is held.
 const SHORTEST_RETURNED: u64 = 32 << 20;
 /// Bytes a drawn point of a picture: its value and its colour.
 const DRAWN: u64 = DOUBLE + 3;

@@ -3,9 +3,11 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::atomic::Ordering;
 
 use approx::assert_relative_eq;
 use stats_alloc::Region;
+use tabor::backend::long_field::{LongField, MAPPED};
 use tabor::effect::Effect;
 use tabor::scene::{Boundary, Scene, SurfacePart};
 use tabor::study::{Cost, Memory, Plan, Setup};
@@ -45,8 +47,9 @@ fn has_file(scene: &Scene) -> bool {
         .any(|part| matches!(part, SurfacePart::File(_)))
 }
 
-/// All that a check does, and the bytes that it asked for in all, freed ones included.
+/// All that a check does, and the bytes that it asked for in all, freed ones and those of fields in large pages included.
 fn check(path: &Path, points: usize) -> (Plan, usize) {
+    let mapped = MAPPED.load(Ordering::Relaxed);
     let region = Region::new(ALLOCATOR);
     let plan = Plan::for_scene(read(path, Some(points))).unwrap_or_else(|error| panic!("{error}"));
     let place = plan.place();
@@ -62,15 +65,27 @@ fn check(path: &Path, points: usize) -> (Plan, usize) {
     Memory::largest_grid(&plan.scene, plan.outline.grid, available).expect("a plan");
     let change = region.change();
     let bytes = change.bytes_allocated as isize + change.bytes_reallocated;
-    (plan, usize::try_from(bytes).unwrap_or(0))
+    let mapped = MAPPED.load(Ordering::Relaxed) - mapped;
+    (plan, usize::try_from(bytes).unwrap_or(0) + mapped)
 }
 
 /// Everything in one test: the counter counts what other threads allocate too.
 fn a_check_takes_no_field_and_says_what_the_heights_say() {
-    // The counter counts.
+    // The counters count.
+    let mapped = MAPPED.load(Ordering::Relaxed);
     let region = Region::new(ALLOCATOR);
     drop(std::hint::black_box(vec![1_u8; 1 << 20]));
     assert!(region.change().bytes_allocated >= 1 << 20);
+    drop(std::hint::black_box(LongField::<u8>::zeros(4 << 20)));
+    let mapped = MAPPED.load(Ordering::Relaxed) - mapped;
+    assert_eq!(
+        mapped,
+        if cfg!(target_os = "linux") {
+            4 << 20
+        } else {
+            0
+        }
+    );
 
     let mut checked = 0;
     for path in shipped() {
