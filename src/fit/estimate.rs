@@ -466,7 +466,8 @@ fn fit_at(search: &Search, minimum: &Minimum) -> ModelFit {
         parameters,
         uncertainties: uncertainties(search, &parameters, &covariance),
         correlations: correlations(&search.variables, &covariance),
-        converged: minimum.converged,
+        // Where only rounding is left the search finds nothing that is less.
+        converged: minimum.converged || sum <= FLOOR * points as f64,
         sum_of_squares: sum * span * span,
         degrees_of_freedom: degrees,
         free,

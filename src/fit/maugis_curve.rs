@@ -81,9 +81,18 @@ impl MaugisCurve {
         })
     }
 
-    /// Approach of the fold; `None` where the curve has none.
-    pub(super) fn fold(&self) -> Option<f64> {
-        (self.model.lambda() > FOLD_LAMBDA).then_some(self.first)
+    /// Approach at which the surfaces jump apart: the fold of the contact, or of the open discs where the contact has none.
+    pub(super) fn fold(&self) -> f64 {
+        if self.model.lambda() > FOLD_LAMBDA {
+            return self.first;
+        }
+        let centre = self.fold_of_discs();
+        -self.model.range() - 0.5 * centre * centre
+    }
+
+    /// Radius of the open disc that lets go.
+    fn fold_of_discs(&self) -> f64 {
+        8.0 / (3.0 * PI) * self.model.lambda()
     }
 
     /// Force along the curve from the open disc to the contact; beyond its fold that of the fold.
@@ -95,7 +104,7 @@ impl MaugisCurve {
             return self.forces[0];
         }
         // The stable one of the open discs.
-        let centre = 8.0 / (3.0 * PI) * self.model.lambda();
+        let centre = self.fold_of_discs();
         let square = centre * centre + 2.0 * (self.model.range() + approach);
         let radius = (centre + square.max(0.0).sqrt()).min(self.model.touching_radius());
         -FRAC_PI_2 * self.model.lambda() * radius * radius

@@ -211,7 +211,7 @@ impl IndenterModel {
             Model::Hertz | Model::Dmt => None,
             Model::Jkr if self.is_sharp() => Some(adhesive_cone::GRIP),
             Model::Jkr => Some(jkr::reduced_approach(jkr::grip())),
-            Model::MaugisDugdale => self.table(lambda, 0.0).ok()?.fold(),
+            Model::MaugisDugdale => Some(self.table(lambda, 0.0).ok()?.fold()),
         }
     }
 

@@ -5,6 +5,7 @@ mod checks;
 mod dmt_study;
 mod fit;
 mod fit_choice;
+mod fit_exact;
 mod fit_inversion;
 mod fit_light;
 mod fit_relaxation;
