@@ -125,6 +125,20 @@ impl SolvedPath {
         Lent::check(py, &self.lent)?;
         self.next(py, said, progress)
     }
+
+    /// Adds to `said` what a path that has ended shows as a whole; nothing where another process began it, or where it was
+    /// interrupted.
+    fn conclude(&mut self, said: &Bound<'_, PyList>) -> PyResult<()> {
+        let is_own = self.process.is_none_or(|own| own == process::id());
+        if let Some(path) = self.path.as_mut().filter(|_| is_own) {
+            path.conclude();
+            for words in path.warnings().split_off(self.warned) {
+                self.warned += 1;
+                said.append(words)?;
+            }
+        }
+        Ok(())
+    }
 }
 
 impl SolvedPath {
@@ -168,7 +182,7 @@ impl SolvedPath {
         }
     }
 
-    /// A solved load; its fields are handed over, not copied, and its heights are one array for all steps that share them.
+    /// A solved load; its fields are handed over, and its heights are one array for all steps that share them.
     fn step<'py>(&mut self, py: Python<'py>, solution: Solution) -> PyResult<Bound<'py, PyDict>> {
         let (heights, points) = (solution.heights.clone(), solution.points);
         let step = table(py, solution)?;

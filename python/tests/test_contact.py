@@ -165,6 +165,18 @@ def test_control_c_ends_a_solve_within_a_second():
     assert time.monotonic() - sent[0] < 1.0
 
 
+def test_a_path_that_has_ended_says_what_it_does_not_show():
+    size = ("1 um", "1 um")
+    sphere = tabor.heights(tabor.Sphere("1 um"), (64, 64), size)
+    law = tabor.MaugisDugdale("50 mJ/m^2", range="20 nm")
+    contact = tabor.Contact(sphere, size, contact_modulus="1 GPa", law=law, boundary="free")
+    path = contact.path(force=["100 nN", "-10 nN"])
+    assert [step.converged for step in (next(path), next(path))] == [True, True]
+    with pytest.warns(tabor.TaborWarning, match="the contact held 10 nN in step 2, the greatest tension of the path: its pull-off is beyond"):
+        assert next(path, None) is None
+    assert list(path) == []
+
+
 def test_a_value_that_no_contact_has():
     # The wave of 10 nm is closed everywhere at an approach of 10 nm.
     size = ("1 um", "31.25 nm")

@@ -10,6 +10,7 @@ use crate::backend::cpu::{Threads, keep_memory};
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
 use crate::run::memory_check;
+use crate::run::warnings::warnings_at_end;
 use crate::scene::{LoadingScene, Scene};
 use crate::study::{
     Checkpoint, Earlier, Evaluation, FinishedStep, Jump, Observer, Planned, Setup, Walk, WalkError,
@@ -26,6 +27,8 @@ pub struct Path<I> {
     /// Whether it goes on behind its loads.
     until_apart: bool,
     ended: bool,
+    /// Whether what the whole path warns of has been said.
+    concluded: bool,
 }
 
 /// A path on its way.
@@ -51,6 +54,7 @@ impl<I> Path<I> {
             course: None,
             until_apart: false,
             ended: false,
+            concluded: false,
         }
     }
 
@@ -62,7 +66,8 @@ impl<I> Path<I> {
     }
 
     /// Warnings of the contact, one sentence each, from the first load on: waves that the grid
-    /// does not resolve, a cohesive zone of too few pixels, and on which device it is solved.
+    /// does not resolve, a cohesive zone of too few pixels, and on which device it is solved. Once the path has given
+    /// `None`, also those of a whole path, such as a pull-off that it does not show.
     pub fn warnings(&self) -> Vec<String> {
         match &self.course {
             None => Vec::new(),
@@ -79,13 +84,9 @@ where
     type Item = Result<Solution, ContactError>;
 
     fn next(&mut self) -> Option<Self::Item> {
-        if self.ended {
+        let Some(load) = self.next_load() else {
+            self.conclude();
             return None;
-        }
-        let load = match self.loads.next() {
-            Some(load) => load.into(),
-            None if self.until_apart => self.course.as_mut()?.load_behind()?,
-            None => return None,
         };
         let solved = self.solve(load);
         self.ended = !solved.as_ref().is_ok_and(|solution| solution.converged);
@@ -93,7 +94,36 @@ where
     }
 }
 
+impl<I> Path<I>
+where
+    I: Iterator,
+    I::Item: Into<Load>,
+{
+    /// The next of the loads, or the next behind them; `None` where the path has ended.
+    fn next_load(&mut self) -> Option<Load> {
+        if self.ended {
+            return None;
+        }
+        match self.loads.next() {
+            Some(load) => Some(load.into()),
+            None if self.until_apart => self.course.as_mut()?.load_behind(),
+            None => None,
+        }
+    }
+}
+
 impl<I> Path<I> {
+    /// Says once what the whole path warns of: the end of its loads does it.
+    #[doc(hidden)]
+    pub fn conclude(&mut self) {
+        if let Some(course) = self.course.as_mut().filter(|_| !self.concluded) {
+            let end = lock(&mut course.walk).end(&course.setup);
+            let found = warnings_at_end(&course.setup, &course.device, &end);
+            course.remarks.extend(found);
+            self.concluded = true;
+        }
+    }
+
     fn solve(&mut self, load: Load) -> Result<Solution, ContactError> {
         let contact = &self.contact;
         let course = match &mut self.course {

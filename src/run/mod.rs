@@ -27,7 +27,7 @@ mod on_ranks;
 mod options;
 mod run_directory;
 mod run_recorder;
-mod warnings;
+pub(crate) mod warnings;
 
 pub use end::{RunEnd, RunError, RunStatus};
 #[doc(hidden)]

@@ -9,7 +9,7 @@ use crate::units::format_si;
 const ROUNDING: f64 = 1e-9;
 
 /// Warnings of a path that ended: steps that rounding ended, and a pull-off that is not known.
-pub(super) fn warnings_at_end(
+pub(crate) fn warnings_at_end(
     setup: &Setup,
     device: &SelectedDevice,
     end: &WalkEnd,

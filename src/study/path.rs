@@ -94,7 +94,7 @@ impl Walk {
     }
 
     /// How it ended, or stands.
-    fn end(self, setup: &Setup) -> WalkEnd {
+    pub fn end(&self, setup: &Setup) -> WalkEnd {
         let jumped = [&self.end.jump_in_steps[..], &self.end.jump_off_steps].concat();
         let found = self
             .jumps
@@ -107,7 +107,7 @@ impl Walk {
         WalkEnd {
             hysteresis_energy: found.map(|found| found.energy),
             hysteresis_uncertainty: uncertainty.map(|found| found.uncertainty),
-            ..self.end
+            ..self.end.clone()
         }
     }
 

@@ -459,6 +459,27 @@ fn a_path_has_the_loads_it_is_given_and_their_pull_off() {
     assert!(holds(0.97 * held) && !holds(1.03 * parted));
 }
 
+/// What a whole path does not show is known behind its last load, and said once.
+fn a_path_that_has_ended_says_what_it_does_not_show() {
+    let adhesive = contact().law(MaugisDugdale::new(0.05, 20e-9));
+    let loads = |last: f64| [1e6, 0.0, last].map(Control::MeanPressure);
+    let pulled = adhesive.path(loads(-1e9)).last().expect("a load");
+    let [held, _] = pulled.expect("a solution").pull_off.expect("it let go");
+    let mut path = adhesive.path(loads(-0.5 * held / (SIZE[0] * SIZE[1])));
+    let said = |warnings: Vec<String>| {
+        let beyond = |words: &&String| words.contains("its pull-off is beyond");
+        warnings.iter().filter(beyond).count()
+    };
+    for _ in 0..3 {
+        assert!(path.next().expect("a load").expect("a solution").converged);
+        assert_eq!(said(path.warnings()), 0);
+    }
+    for _ in 0..2 {
+        assert!(path.next().is_none());
+        assert_eq!(said(path.warnings()), 1, "{:?}", path.warnings());
+    }
+}
+
 /// A scene that names a step of its own path, or goes on behind it, says nothing of a single load or of other ramps.
 fn one_load_of_a_scene_takes_nothing_of_its_path() {
     let law = MaugisDugdale::new(0.05, 20e-9);
@@ -714,6 +735,7 @@ tests![
     arrays_have_the_shape_and_order_that_are_promised,
     paths_are_solved_as_they_are_asked_for,
     a_path_has_the_loads_it_is_given_and_their_pull_off,
+    a_path_that_has_ended_says_what_it_does_not_show,
     one_load_of_a_scene_takes_nothing_of_its_path,
     a_watcher_ends_a_solve,
     parted_surfaces_leave_whole_arrays,

@@ -61,6 +61,7 @@ class Path:
             load = next(self._loads, None)
             if load is None and not self._pulls:
                 self._ended = True
+                self._solver.conclude(said)
                 raise StopIteration
             if not self._begun:
                 self._begun = True
@@ -72,6 +73,12 @@ class Path:
             step = Step(found, self._periodic)
             self._solved += 1
             self._ended = not step.converged
+            if self._ended:
+                self._solver.conclude(said)
+        except StopIteration:
+            self._open.close()
+            self._tell(said, level + 1)
+            raise
         except BaseException as error:
             # As of a generator: what is refused ends it.
             self._ended = self._ended or isinstance(error, TaborError)
@@ -79,22 +86,23 @@ class Path:
             for words in said:
                 # A warning that a filter makes an error does not stand in place of what ended the path.
                 with contextlib.suppress(Exception):
-                    warnings.warn(self._told(words), TaborWarning, stacklevel=level)
+                    self._tell([words], level + 1)
             raise
         finally:
             self._busy.release()
         if self._ended:
             self._open.close()
-        for words in said:
-            warnings.warn(self._told(words), TaborWarning, stacklevel=level)
+        self._tell(said, level + 1)
         if not step.converged:
             words = f"a load did not converge: {step.unreachable or f'residual {step.residual:.1e} after {step.iterations} iterations'}"
             warnings.warn(words, NotConvergedWarning, stacklevel=level)
         return step
 
-    def _told(self, words: str) -> str:
-        """A warning in the words of the scene's author."""
-        return words if self._wording is None else self._wording("", words)
+    def _tell(self, said: list[str], level: int) -> None:
+        """Warns in the words of the scene's author."""
+        for words in said:
+            told = words if self._wording is None else self._wording("", words)
+            warnings.warn(told, TaborWarning, stacklevel=level)
 
     def __reduce__(self) -> Any:
         raise TypeError("a path that solves does not pickle; pickle its contact or scene, or the steps that it gave: list(path)")
