@@ -77,6 +77,7 @@ const FILE_OPTIONS: &[(&str, &str)] = &[
     ),
     ("boundary = \"free\"", "--boundary free"),
     ("crop = [", "--crop ["),
+    (", crop leaves", ", --crop leaves"),
     ("resample = [nx, ny]", "--resample \"nx, ny\""),
     ("[grid] size", "--size"),
     ("leave size out", "leave --size out"),
@@ -84,9 +85,17 @@ const FILE_OPTIONS: &[(&str, &str)] = &[
 
 /// A message about a height file for those who gave it to `tabor surface`.
 pub(super) fn with_file_options(message: &str) -> String {
-    FILE_OPTIONS
+    let words = FILE_OPTIONS
         .iter()
         .fold(message.to_owned(), |text, (words, option)| {
             text.replace(words, option)
-        })
+        });
+    // A shell takes an array for a pattern.
+    let Some((before, after)) = words.split_once("--crop [") else {
+        return words;
+    };
+    match after.split_once(']') {
+        Some((numbers, after)) => format!("{before}--crop \"{numbers}\"{after}"),
+        None => words,
+    }
 }

@@ -5,8 +5,9 @@ use std::path::{Path, PathBuf};
 
 use super::array;
 use super::by_rows::{Reading, with_ends};
-use super::error::{FileError, PartError, SurfaceError};
+use super::error::{PartError, SurfaceError};
 use super::file;
+use super::file_error::FileError;
 use crate::backend::Share;
 use crate::grid::Grid;
 use crate::scene::{AdhesionMap, Boundary, HeightFileScene, LawName, PatternKind, Scene};

@@ -1,8 +1,9 @@
 //! Maps from files over several processes, each of which keeps its rows. The first process reads a file some rows at a time and
 //! hands each on, so that none holds the map; what is asked of it all do together, each of its rows.
 
-use super::error::{FileError, SurfaceError};
+use super::error::SurfaceError;
 use super::file::{self, HeightMap};
+use super::file_error::FileError;
 use super::formats::{self, Numbers, Opening};
 use super::matrix::{Map, Matrix, PASSED, Size};
 use super::{prepare, profile};

@@ -1,6 +1,6 @@
 //! Reads a height file and applies the scene's fill, unit, scale and detrending.
 
-use super::error::FileError;
+use super::file_error::FileError;
 use super::formats::Opening;
 use super::matrix::{Matrix, Size};
 use super::statistics::edge_jumps;
@@ -211,6 +211,8 @@ pub(super) fn heights_of(
     let [factor, zero] = factor_and_zero(&matrix, scene, unit)?;
     let mut heights = matrix.values;
     let mut warnings = matrix.warnings;
+    let keeps_edges = asked.crop.is_none_or(|[x, y, ..]| [x, y] == [0, 0]);
+    warnings.extend(matrix.frame.filter(|_| keeps_edges && !asked.profile));
     if let Some(unit) = matrix.lateral_unit {
         warnings.push(format!(
             "the file gives {unit:e} m as the unit of x, which only points x y z and a profile (profile = true) have"

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use super::detrend::Trend;
-use super::error::FileError;
+use super::file_error::FileError;
 use crate::backend::{BackendError, Share};
 
 /// Iteration limit of the membrane solve; a hole a few thousand pixels wide needs as many.

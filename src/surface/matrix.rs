@@ -1,6 +1,6 @@
 //! A matrix of numbers as a file holds it.
 
-use super::error::FileError;
+use super::file_error::FileError;
 use super::formats::Numbers;
 
 /// Most numbers of the rows that are read and passed over at once, or those of one row.
@@ -25,6 +25,8 @@ pub(super) struct Matrix<V = Vec<f64>> {
     pub(super) places: Option<usize>,
     /// Whether the numbers are shades of grey, from 0 (black) to 1 (white).
     pub(super) grey: bool,
+    /// A warning for whom the first row and the first column are heights: they look like places.
+    pub(super) frame: Option<String>,
     /// Warnings for the user.
     pub(super) warnings: Vec<String>,
 }
@@ -44,6 +46,7 @@ impl<V> Matrix<V> {
             lateral_unit: None,
             places: None,
             grey: false,
+            frame: None,
             warnings: Vec::new(),
         }
     }
@@ -59,6 +62,7 @@ impl<V> Matrix<V> {
             lateral_unit: self.lateral_unit,
             places: self.places,
             grey: self.grey,
+            frame: self.frame,
             warnings: self.warnings,
         };
         (self.values, replaced)

@@ -19,6 +19,7 @@ pub mod correlation;
 mod detrend;
 mod error;
 mod file;
+mod file_error;
 mod fill;
 pub mod fit;
 mod formats;
@@ -41,7 +42,8 @@ mod top;
 
 pub use adhesion_map::MapError;
 pub(crate) use by_rows::points_before_resampling;
-pub use error::{FileError, PartError, SurfaceError};
+pub use error::{PartError, SurfaceError};
+pub use file_error::FileError;
 #[doc(hidden)]
 pub use formats::claimed_points;
 pub(crate) use formats::instrument_header;

@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::error::FileError;
+use super::file_error::FileError;
 use super::matrix::{Matrix, Size};
 use crate::backend::{BackendError, Share};
 

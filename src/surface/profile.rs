@@ -1,6 +1,6 @@
 //! A line scan as a profile.
 
-use super::error::FileError;
+use super::file_error::FileError;
 use super::formats::UNEVEN;
 use super::matrix::{Map, Matrix, PASSED, Size};
 

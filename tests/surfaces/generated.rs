@@ -85,6 +85,7 @@ fn bad_files_are_refused_in_a_sentence() {
         ("two_headers.txt", b"a b\nc d\n1 2\n".to_vec(), "line 2 (row 1), column 1: \"c\" is not a number"),
         ("two_marks.csv", b"1;2\n3;1,000.5\n".to_vec(), "line 2 (row 2), column 2: \"1,000.5\" is not a number"),
         ("nan.txt", b"1 nan\nnan inf\n".to_vec(), "3 of 4 pixels are missing (1 of them infinite), the first at row 1, column 2; write fill = \"interpolate\""),
+        ("places.csv", b";1;2;3\n1;5;9;4\n2;6;3;8\n3;4;4;1\n".to_vec(), "from their neighbours; if the first row and the first column are places, crop leaves them out"),
         ("hole.csv", b"1;2\n3;\n5;6\n".to_vec(), "1 of 6 pixels are missing (0 of them infinite), the first at row 2, column 2"),
         ("nul.txt", b"1 2\n3 \0\n".to_vec(), "the file is not text: byte 6 is 0"),
         ("wide.txt", b"\xFF\xFE1\0 \0".to_vec(), "the text is in UTF-16; save it as UTF-8"),
@@ -195,6 +196,25 @@ fn wrong_settings_of_a_good_file_are_refused() {
     let mut sizeless = grid(None);
     sizeless.size = None;
     refused(&sizeless, good, "[grid] size is missing");
+}
+
+/// Places around a matrix are warned of where they are taken for heights.
+#[test]
+fn places_around_a_matrix_are_left_out_by_a_crop() {
+    let folder = tempfile::tempdir().unwrap();
+    let text = b"0,1,2,3,4\n1,5,9,4,7\n2,6,3,8,1\n3,4,4,1,6\n";
+    let path = write(folder.path(), "places.csv", text);
+    let told = |part: HeightFileScene| {
+        let surface = build(part).unwrap();
+        let is_told = |text: &&String| text.contains("leave them out with crop = [1, 1, 4, 3]");
+        surface.warnings.iter().filter(is_told).count()
+    };
+    assert_eq!(told(file_part(&path)), 1);
+    for (crop, count) in [([1, 1, 4, 3], 0), ([0, 0, 4, 4], 1)] {
+        let mut part = file_part(&path);
+        part.preparation.crop = Some(crop);
+        assert_eq!(told(part), count, "{crop:?}");
+    }
 }
 
 #[test]

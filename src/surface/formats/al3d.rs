@@ -4,7 +4,7 @@
 //! Alicona Imaging, "AL3D format", version 1.0.
 
 use super::bytes::{Bytes, checked_shape};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.

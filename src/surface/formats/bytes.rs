@@ -6,7 +6,7 @@ use std::rc::Rc;
 
 use super::numbers::{Numbers, RawRows};
 use crate::surface::MOST_POINTS;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 
 /// What a file is read from.
 pub(super) trait Source: Read + Seek {}

@@ -5,7 +5,7 @@
 
 use super::bytes::{Bytes, checked_shape};
 use super::length::stated_unit;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.

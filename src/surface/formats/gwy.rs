@@ -9,7 +9,7 @@
 
 use super::bytes::{Bytes, checked_shape};
 use super::length::length_unit;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 use crate::units::quoted;
 

@@ -1,6 +1,6 @@
 //! Units of length as instruments and their programs write them.
 
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::units::{Dimension, unit_factor};
 
 /// Metres in a unit of length; `None` if the unit is not a length.

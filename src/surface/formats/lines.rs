@@ -3,7 +3,7 @@
 use std::io::{BufRead, BufReader, Read};
 
 use super::bytes::{Bytes, Stream, latin_1};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 
 /// The lines from a place of a file on.
 pub(super) struct Lines {

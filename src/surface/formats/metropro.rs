@@ -4,7 +4,7 @@
 //! Zygo, "MetroPro reference guide" OMP-0347, "Data format".
 
 use super::bytes::{Bytes, checked_shape};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file, of the three forms of its header.

@@ -6,6 +6,7 @@
 mod al3d;
 mod bytes;
 mod fields;
+mod frame;
 mod gsf;
 mod gwy;
 mod ibw;
@@ -47,7 +48,7 @@ use std::fs::{self, File};
 use std::io::{BufRead, BufReader, ErrorKind};
 use std::path::Path;
 
-use super::error::FileError;
+use super::file_error::FileError;
 use super::matrix::{Map, Matrix};
 use bytes::Bytes;
 pub(super) use bytes::Opening;

@@ -9,7 +9,7 @@
 use super::bytes::{Bytes, checked_shape};
 use super::instrument_header::{NANOSCOPE_IMAGES, Section, nanoscope_sections, sensitivity, volts};
 use super::length::length_unit;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file of images.

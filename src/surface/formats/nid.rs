@@ -8,7 +8,7 @@
 use super::bytes::{Bytes, checked_shape};
 use super::instrument_header::{Section, bracketed_sections};
 use super::length::length_unit;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.

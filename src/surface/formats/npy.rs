@@ -12,7 +12,7 @@ use npyz::{DType, NpyFile, Order, TypeChar};
 
 use super::bytes::Bytes;
 use crate::surface::MOST_POINTS;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix};
 
 /// First bytes of a .npy file.

@@ -1,7 +1,7 @@
 //! The numbers of a map as its file gives them: some rows at a time, in their order. The whole map is all of its rows.
 
 use super::bytes::{Bytes, with_capacity};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 
 /// Most numbers read at once; some formats hold twice as many.
 const AT_ONCE: usize = 1 << 17;

@@ -4,7 +4,7 @@
 //! Veeco, "Wyko Vision data file formats", the OPD format.
 
 use super::bytes::{Bytes, checked_shape};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.

@@ -4,7 +4,7 @@
 //! Sensofar, "PLu file format", 2009.
 
 use super::bytes::{Bytes, checked_shape};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// Offsets in the header.

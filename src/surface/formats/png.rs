@@ -8,7 +8,7 @@ use png::{BitDepth, ColorType, Decoder, DecodingError, Reader, Transformations};
 use super::bytes::{Bytes, Opening, Stream, checked_shape};
 use super::numbers::{Decode, NumberRows, Numbers, decoded};
 use super::unordered::Unordered;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix};
 
 /// First bytes of a file.

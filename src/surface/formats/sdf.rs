@@ -9,7 +9,7 @@
 use super::bytes::{Bytes, checked_shape, refuse_short_text};
 use super::lines::{Lines, broken_line};
 use super::words::{WordRows, Words, checked};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file: `a` for text or `b` for binary, then the organisation that defined the

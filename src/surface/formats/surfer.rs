@@ -10,7 +10,7 @@
 use super::bytes::{Bytes, checked_shape, refuse_short_text};
 use super::lines::{Lines, broken_line};
 use super::words::{WordRows, Words, checked};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of the three forms.

@@ -10,12 +10,13 @@ use std::io::{BufRead, ErrorKind, Seek, SeekFrom};
 
 use super::bytes::{Bytes, Opening};
 use super::fields::{Marks, Separator, content, fields, is_words, number, split_comment};
+use super::frame::Frame;
 use super::lines::Lines;
 use super::numbers::{NumberRows, Numbers};
 use super::remarks::Remarks;
 use super::xyz::{self, NoGrid, Points};
 use crate::surface::MOST_POINTS;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// Bytes that tell the rows of a text at a glance.
@@ -188,6 +189,7 @@ impl Text {
     fn matrix(&self, keeps: bool) -> Result<Matrix, FileError> {
         let (mut rows, mut columns) = (0_usize, 0);
         let mut values = Vec::new();
+        let mut frame = Frame::default();
         let mut lines = self.lines();
         while let Some(line) = lines.next()? {
             rows += 1;
@@ -212,8 +214,9 @@ impl Text {
                     points: points as u64,
                 });
             }
-            for value in self.numbers(&line, rows, columns) {
+            for (column, value) in (1..).zip(self.numbers(&line, rows, columns)) {
                 let value = value?;
+                frame.take(rows, column, value);
                 if keeps {
                     values.push(value);
                 }
@@ -236,6 +239,7 @@ impl Text {
                 .named_profile()
                 .filter(|_| columns == 2)
                 .map(|[places, _]| places),
+            frame: frame.warning(rows, columns),
             ..Matrix::new(values, [rows, columns])
         })
     }

@@ -14,7 +14,7 @@ use super::numbers::{NumberRows, Numbers};
 use super::png::{first_line, not_grey, refuse_ratio};
 use super::tiff_gdal::{Scaled, WithoutMissing, missing_number, scale_and_offset};
 use super::tiff_streams::Streams;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix};
 
 /// First bytes of a file: both byte orders, and files beyond 4 GiB.

@@ -5,7 +5,7 @@ use tiff::tags::{PhotometricInterpretation, Tag};
 
 use super::numbers::NumberRows;
 use super::tiff::{Image, broken};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::units::quoted;
 
 /// The tag of GDAL's metadata, a text of XML.

@@ -16,7 +16,7 @@ use super::bytes::{Bytes, Opening, Stream};
 use super::numbers::{NumberRows, Numbers};
 use super::tiff::broken;
 use super::unordered::Unordered;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 
 /// Numbers of a row of the widest tile that is unpacked here.
 const WIDEST_TILE: usize = 1 << 20;

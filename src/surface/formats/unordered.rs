@@ -7,7 +7,7 @@ use std::io::{self, Read, Seek, SeekFrom, Write};
 
 use super::bytes::{Opening, with_capacity};
 use super::numbers::{NumberRows, Numbers};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::PASSED;
 
 /// Bytes of a number on disk: its place within the band, and itself.

@@ -8,7 +8,7 @@ use std::fs::File;
 use std::io::BufReader;
 
 use super::bytes::{Bytes, Opening, checked_shape};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.

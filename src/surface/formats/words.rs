@@ -3,7 +3,7 @@
 use super::bytes::{Bytes, Opening};
 use super::lines::Lines;
 use super::numbers::{NumberRows, Numbers};
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix};
 
 /// The words of a text, one after another.

@@ -12,7 +12,7 @@ use zip::ZipArchive;
 use super::bytes::{Bytes, checked_shape};
 use super::numbers::{Decode, NumberRows, Numbers, decoded};
 use super::zip_entry::ZipEntry;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// First bytes of a file.

@@ -9,7 +9,7 @@ use super::numbers::Numbers;
 use super::text::{self, Text};
 use super::unordered::Unordered;
 use crate::surface::MOST_POINTS;
-use crate::surface::error::FileError;
+use crate::surface::file_error::FileError;
 use crate::surface::matrix::{Map, Matrix, Size};
 
 /// Coordinates closer than this share of their range are equal: less than the spacing of any grid,
