@@ -24,8 +24,8 @@ const DRIVERS: u64 = 56 << 20;
 pub(crate) const EVALUATION: u64 = 2 * DOUBLE + 1;
 /// Pieces below this length stay with the allocator when they are let go (glibc on 64 bits; longer ones go back
 /// to the system), and do not always fit where another is wanted: at the largest moment about half of one of the
-/// solver's fields was unused. Those of a coarse start stay where the solver's own do not. On Linux fields from a large page
-/// (2 MiB) on go back too, and what is left of it is what else is held.
+/// solver's fields was unused. Those of a coarse start stay where the solver's own do not, but on Linux, where they come in
+/// large pages and go back.
 const SHORTEST_RETURNED: u64 = 32 << 20;
 /// Bytes a drawn point of a picture: its value and its colour.
 const DRAWN: u64 = DOUBLE + 3;
@@ -123,13 +123,13 @@ impl Memory {
         let starting = field.max(coarse_start(cost, points, solver_here, ranks));
 
         // A step is solved and evaluated, then its result is written, before which the last one goes, and its gap
-        // read; the checkpoint shares the history.
+        // read beside the results that are kept; the checkpoint shares the history.
         let first = alone + first_start + result * cost.host.results;
         let step = iterating.max(idle + evaluating) + before + results;
         // Rows of others on their way through the first rank.
         let coming = if ranks > 1 { 2 * ROUND.min(field) } else { 0 };
         let writing = writing(scene, points, &grid) + coming;
-        let ended = idle + points_before + writing.max(results.max(result) + field + coming);
+        let ended = idle + points_before + writing.max(results + field + coming);
         let walking = first.max(step).max(ended).max(idle + starting);
         // A load between two steps is solved beside the states of both and the result of the second; its own state
         // is read beside its own result.
@@ -161,7 +161,10 @@ impl Memory {
             0
         } else if solver_field < SHORTEST_RETURNED {
             solver_field / 2
-        } else if cost.starts_coarse && solver_field / 4 < SHORTEST_RETURNED {
+        } else if cfg!(not(target_os = "linux"))
+            && cost.starts_coarse
+            && solver_field / 4 < SHORTEST_RETURNED
+        {
             SHORTEST_RETURNED
         } else {
             0
