@@ -76,12 +76,13 @@ const FILE_OPTIONS: &[(&str, &str)] = &[
         "--edges window or --edges mirror",
     ),
     ("boundary = \"free\"", "--boundary free"),
-    ("crop = [", "--crop ["),
     (", crop leaves", ", --crop leaves"),
-    ("resample = [nx, ny]", "--resample \"nx, ny\""),
     ("[grid] size", "--size"),
     ("leave size out", "leave --size out"),
 ];
+
+/// Those of them that take a list, in a scene in brackets.
+const LISTS: [&str; 2] = ["crop", "resample"];
 
 /// A message about a height file for those who gave it to `tabor surface`.
 pub(super) fn with_file_options(message: &str) -> String {
@@ -90,12 +91,34 @@ pub(super) fn with_file_options(message: &str) -> String {
         .fold(message.to_owned(), |text, (words, option)| {
             text.replace(words, option)
         });
-    // A shell takes an array for a pattern.
-    let Some((before, after)) = words.split_once("--crop [") else {
-        return words;
-    };
-    match after.split_once(']') {
-        Some((numbers, after)) => format!("{before}--crop \"{numbers}\"{after}"),
-        None => words,
+    LISTS.iter().fold(words, |words, key| {
+        let list = words.split_once(&format!("{key} = ["));
+        let list = list.and_then(|(before, after)| Some((before, after.split_once(']')?)));
+        match list {
+            Some((before, (values, after))) => format!("{before}--{key} \"{values}\"{after}"),
+            None => words,
+        }
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn lists_of_a_scene_are_told_as_options() {
+        for (message, told) in [
+            (
+                "leave them out with crop = [1, 1, 5, 4]",
+                "leave them out with --crop \"1, 1, 5, 4\"",
+            ),
+            (
+                "or give the file resample = [nx, ny]",
+                "or give the file --resample \"nx, ny\"",
+            ),
+            ("crop = [1 and no end", "crop = [1 and no end"),
+        ] {
+            assert_eq!(with_file_options(message), told);
+        }
     }
 }

@@ -129,7 +129,7 @@ impl Carry for Indentation {
 
     fn restore(&self, solver: &mut ContactSolver) {
         if self.depths.is_some() || solver.plastic_depths().is_some() {
-            solver.set_plastic_depths(self.depths.as_ref().map(|depths| &***depths));
+            solver.set_plastic_depths(self.depths.as_deref().map(|depths| &**depths));
         }
     }
 
@@ -169,7 +169,7 @@ impl Carry for Indentation {
                     }
                 }
             }
-            solver.set_plastic_depths(self.depths.as_ref().map(|depths| &***depths));
+            solver.set_plastic_depths(self.depths.as_deref().map(|depths| &**depths));
             solver.set_gap(&gap);
         }
         Ok(())

@@ -83,7 +83,7 @@ impl<'a> Contact<'a> {
         let finer = |k: usize| problem.shape.points.map(|points| points >> k);
         Contact {
             params: params_under(problem, load, f64::EPSILON),
-            heights: problem.padded_heights().to_vec(),
+            heights: problem.padded_heights().into(),
             wall: in_domain.iter().map(|&inside| inside && wall).collect(),
             in_domain,
             factor: problem.padded(factor, 0.0),

@@ -5,13 +5,14 @@
 //! so each round gains some digits, whatever the law: the closer a start is, the more. A path that moves on by a
 //! small step is mostly solved in one or two rounds. Only a start that is far is first solved in single precision.
 
+use std::borrow::Cow;
+
 use super::contact::ContactSolver;
 use super::load::{Load, Outcome, Start};
 use super::outer_state::OuterState;
 use crate::backend::{Backend, BackendError, Field};
 use crate::kernel::{Scalars, Status};
 use crate::law::Law;
-use std::borrow::Cow;
 
 /// Tolerance of the first solve: what single precision reaches on every scene.
 pub(super) const FIRST_TOLERANCE: f64 = 1e-4;

@@ -51,6 +51,7 @@ pub(crate) use outline::has_flats;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
 
+use std::borrow::Cow;
 use std::sync::Arc;
 
 use crate::backend::ranks::Ranks;
@@ -303,7 +304,7 @@ fn sum_of(
                     found.extend(map.stretch(grid, points));
                 }
                 found.extend(map.warnings);
-                add(&mut heights, map.heights);
+                add(&mut heights, map.heights.into());
             }
             None => add_part(&mut heights, part, grid, share, boundary, &mut found)
                 .map_err(|problem| part_error(index, problem))?,
@@ -369,13 +370,13 @@ fn add_part(
         }
         SurfacePart::SelfAffine(scene) => {
             let rough = self_affine::build(scene, grid, share, warnings)?;
-            add(heights, rough);
+            add(heights, rough.into());
             Ok(())
         }
         SurfacePart::Heights(array) => {
             let whole = array::heights(array, grid)?;
             let held = &whole[first_row * grid.nx..][..share.surface_len()];
-            add(heights, held.to_vec());
+            add(heights, held.into());
             Ok(())
         }
         // A file's heights were read and added before.
@@ -423,9 +424,9 @@ impl SurfacePart {
 }
 
 /// Adds heights point by point; the first ones are taken as they are.
-fn add(heights: &mut Vec<f64>, more: Vec<f64>) {
+fn add(heights: &mut Vec<f64>, more: Cow<[f64]>) {
     if heights.is_empty() {
-        *heights = more;
+        *heights = more.into_owned();
     } else {
         host_fields::change(heights, |point, height| *height += more[point]);
     }
