@@ -2,6 +2,7 @@
 
 use super::patience::Patience;
 use super::{CompareArguments, Failure, folder_or_default, note, say, warn};
+use crate::backend::cpu::in_pool;
 use crate::compare::{self, CompareError, Row};
 use crate::device::SelectedDevice;
 use crate::run::memory_check;
@@ -30,7 +31,7 @@ pub(super) fn compare(arguments: &CompareArguments) -> Result<(), Failure> {
     if let Some(remark) = &device.remark {
         note(remark);
     }
-    let compared = compare::compare(setup, &|| device.backend(), &folder)?;
+    let compared = in_pool(|| compare::compare(setup, &|| device.backend(), &folder))?;
     for text in &compared.notes {
         note(text);
     }

@@ -7,7 +7,7 @@ use super::memory_check;
 use super::warnings::warnings_at_end;
 use super::{RunObserver, RunOptions};
 use crate::backend::BackendError;
-use crate::backend::cpu::with_threads;
+use crate::backend::cpu::{in_pool, with_threads};
 use crate::clock::Clock;
 use crate::device::SelectedDevice;
 use crate::kernel::Scalars;
@@ -84,7 +84,7 @@ fn walk_on_device(
     let mut work = || walk(setup, &make_backend, &mut steps);
     let walked = match options.threads {
         Some(threads) => with_threads(Some(threads), &mut work)?,
-        None => work(),
+        None => in_pool(&mut work),
     };
     walked.map_err(|error| match error {
         WalkError::Backend(error) => error,

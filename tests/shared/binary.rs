@@ -11,12 +11,14 @@ use tempfile::TempDir;
 /// Where the binary is.
 pub const BINARY: &str = env!("CARGO_BIN_EXE_tabor");
 
-/// A command on the binary, from `folder`, which reads nothing.
+/// A command on the binary, from `folder`, which reads nothing. It takes one thread unless a test asks for more: tests run side by
+/// side, and results have the same bits on any number.
 pub fn command(folder: &Path, arguments: &[&str]) -> Command {
     let mut command = Command::new(BINARY);
     command
         .current_dir(folder)
         .args(arguments)
+        .env("RAYON_NUM_THREADS", "1")
         .stdin(Stdio::null());
     command
 }

@@ -276,7 +276,7 @@ fn mixed() -> impl Fn() -> Box<dyn Backend + Send> {
 fn resume_on_the_graphics_processor() {
     let device = device();
     let make = || -> Box<dyn Backend + Send> { Box::new(GpuBackend::on(device)) };
-    assert_eq!(all(&make, true, true, 2), 9);
+    assert_eq!(all(&make, true, true, 4), 9);
 }
 
 /// The cold start on coarser grids, which small grids do without.

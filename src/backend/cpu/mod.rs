@@ -31,7 +31,7 @@ use across::round_bytes;
 use blocks::{BLOCK, Held, Job, run_blocks};
 pub(super) use slabs::Slabs;
 pub use slabs::largest_slab;
-pub use threads::{Threads, keep_memory, with_threads};
+pub use threads::{Threads, in_pool, keep_memory, with_threads};
 use transform::Transform;
 
 /// A backend in double precision, the reference, with nothing in it; of several ranks each holds its rows.

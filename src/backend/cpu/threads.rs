@@ -13,6 +13,12 @@ pub fn with_threads<R: Send>(
     Ok(Threads::new(threads)?.run(work))
 }
 
+/// Runs `work` on the pool of its caller; of a caller outside of any, on that of all cores. A solve from outside of a pool would
+/// wake a thread, and wait for it, for each of its kernels.
+pub fn in_pool<R: Send>(work: impl FnOnce() -> R + Send) -> R {
+    rayon::scope(|_| work())
+}
+
 /// Nearly the longest piece of memory that the allocator keeps when it is let go (glibc on 64 bits).
 const LONGEST_KEPT: usize = (32 << 20) - (64 << 10);
 
@@ -43,5 +49,20 @@ impl Threads {
     /// Runs `work` on them, to whom every backend made inside belongs.
     pub fn run<R: Send>(&self, work: impl FnOnce() -> R + Send) -> R {
         self.0.install(work)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use rayon::{current_num_threads, current_thread_index};
+
+    use super::*;
+
+    #[test]
+    fn work_is_in_a_pool_that_of_its_caller_where_there_is_one() {
+        assert_eq!(current_thread_index(), None);
+        assert!(in_pool(current_thread_index).is_some());
+        let threads = Threads::new(Some(3)).expect("three threads");
+        assert_eq!(threads.run(|| in_pool(current_num_threads)), 3);
     }
 }
