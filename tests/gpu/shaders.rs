@@ -132,7 +132,10 @@ fn kernels_are_valid_and_bind_what_the_catalogue_declares() {
                         assert_eq!(fields(&module), declared, "{}", kernel.name);
                         assert_eq!(module.entry_points[0].name, kernel.name);
                     }
-                    // The same on corrections of an outer state.
+                    // The same on corrections of an outer state, which are in single precision.
+                    if number == Number::Double {
+                        continue;
+                    }
                     let corrected = LawSource {
                         outer_gap: Some(kernel.fields()),
                         ..uniform(law)
