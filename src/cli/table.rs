@@ -26,16 +26,22 @@ fn table(rows: &[StepRow]) -> String {
             }
             continue;
         }
-        let approach = row
-            .approach
-            .map_or_else(|| "-".to_owned(), |value| format_si(value, "m"));
+        let shown = |value: f64, unit: &str| match value.is_nan() {
+            true => "-".to_owned(),
+            false => format_si(value, unit),
+        };
+        let share = 100.0 * row.contact_area_fraction;
         text.push_str(&format!(
-            "{:>5} {:>12} {:>12} {:>12} {:>8.3}% {:>6} {:>9.1e}  {}\n",
+            "{:>5} {:>12} {:>12} {:>12} {:>9} {:>6} {:>9.1e}  {}\n",
             row.step,
-            approach,
-            format_si(row.force, "N"),
-            format_si(row.mean_pressure, "Pa"),
-            100.0 * row.contact_area_fraction,
+            shown(row.approach.unwrap_or(f64::NAN), "m"),
+            shown(row.force, "N"),
+            shown(row.mean_pressure, "Pa"),
+            if share.is_nan() {
+                "-".to_owned()
+            } else {
+                format!("{share:.3}%")
+            },
             row.iterations,
             row.residual,
             row.state_words()

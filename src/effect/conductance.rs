@@ -115,6 +115,7 @@ impl Hooks for Conductance {
         setup: &Setup,
         solver: &mut ContactSolver,
         solved: &mut SolvedStep,
+        watch: &mut dyn FnMut(usize, f64) -> bool,
     ) -> Result<(), BackendError> {
         let Some(bodies) = setup.scene.tables.conductance else {
             return Ok(());
@@ -126,8 +127,12 @@ impl Hooks for Conductance {
         let touches = |point: &PointState| f64::from(u8::from(*point == PointState::Contact));
         let contact: Vec<f64> = evaluation.points.iter().map(touches).collect();
         let settings = &setup.scene.solver;
-        let stiffness =
-            solver.incremental_stiffness(&contact, settings.tolerance, settings.max_iterations)?;
+        let stiffness = solver.incremental_stiffness(
+            &contact,
+            settings.tolerance,
+            settings.max_iterations,
+            watch,
+        )?;
         let problem = solver.problem();
         // A reduced load over a reduced length is so many areas of a pixel over its side of E*.
         let side = problem.grid.pixel_area() / problem.scales.lateral;

@@ -72,6 +72,7 @@ impl Hooks for Leakage {
         setup: &Setup,
         _: &mut ContactSolver,
         solved: &mut SolvedStep,
+        watch: &mut dyn FnMut(usize, f64) -> bool,
     ) -> Result<(), BackendError> {
         let (Some(LeakageScene { viscosity, axis }), Some(evaluation)) =
             (setup.scene.tables.leakage, &solved.evaluation)
@@ -109,7 +110,13 @@ impl Hooks for Leakage {
             axis,
         };
         let settings = &setup.scene.solver;
-        let flow = film.flow_on(&even, gap, settings.tolerance, settings.max_iterations)?;
+        let flow = film.flow_on(
+            &even,
+            gap,
+            settings.tolerance,
+            settings.max_iterations,
+            watch,
+        )?;
         if !flow.converged {
             solved.leave_unmeasured();
         }

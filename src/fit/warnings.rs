@@ -14,8 +14,9 @@ pub(super) const ZERO_POINTS: usize = 5;
 const MISFIT_CORRELATION: f64 = 0.3;
 /// Correlation of work of adhesion and modulus above which they cannot be separated.
 const INSEPARABLE_CORRELATION: f64 = 0.95;
-/// Share of the range of the forces to which a model is computed; below it are rounding and interpolation.
-const EXACT: f64 = 1e-7;
+/// Share of the range of the forces below which a deviation is no misfit: models are computed to some 1e-7 of it, and no instrument has so
+/// little noise.
+const EXACT: f64 = 1e-6;
 /// A modulus, Pa, that no solid comes near to: diamond has 1e12.
 const TOO_STIFF: f64 = 1e13;
 /// What mixes rows, and the way out.

@@ -51,7 +51,7 @@ impl Film {
     /// shape `[ny, nx]`; a point that is not above 0 is closed.
     pub fn flow(&self, gap: Vec<f64>, tolerance: f64, max_iterations: usize) -> Flow {
         let share = Share::whole(Shape::whole(self.grid.nx, self.grid.ny));
-        let found = self.flow_on(&share, gap, tolerance, max_iterations);
+        let found = self.flow_on(&share, gap, tolerance, max_iterations, &mut |_, _| true);
         // One process waits for no other.
         found.unwrap_or(Flow {
             critical_gap: f64::NAN,
@@ -62,7 +62,8 @@ impl Film {
     }
 
     /// The same through a gap of which this process holds the rows of a share of the grid. The result has the same bits on
-    /// every rank and on any number of them.
+    /// every rank and on any number of them. `watch` sees each iteration with the relative error of the permeance, and says whether to go
+    /// on.
     ///
     /// # Errors
     /// A rank has ended.
@@ -73,6 +74,7 @@ impl Film {
         mut gap: Vec<f64>,
         tolerance: f64,
         max_iterations: usize,
+        watch: &mut dyn FnMut(usize, f64) -> bool,
     ) -> Result<Flow, BackendError> {
         debug_assert_eq!(share.shape().points, self.grid.points());
         let frame = Frame::new(&self.grid, self.boundary, self.axis);
@@ -90,7 +92,7 @@ impl Film {
             });
         }
         gap.par_iter_mut().for_each(|gap| *gap = gap.powi(3));
-        let pressure = reynolds::solve(share, &frame, gap, tolerance, max_iterations)?;
+        let pressure = reynolds::solve(share, &frame, gap, tolerance, max_iterations, watch)?;
         Ok(Flow {
             critical_gap: critical_gap * unit,
             permeance: pressure.power * unit.powi(3),

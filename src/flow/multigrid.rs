@@ -36,7 +36,8 @@ pub(super) struct Pressure {
     pub iterations: usize,
 }
 
-/// Solves for the pressure under which `source` leaves a graph. `power` is what is lost under a pressure.
+/// Solves for the pressure under which `source` leaves a graph. `power` is what is lost under a pressure. `watch` sees each iteration
+/// with the relative error of the power, and says whether to go on.
 ///
 /// # Errors
 /// A rank has ended.
@@ -47,6 +48,7 @@ pub(super) fn solve(
     power: impl Fn(&Level, &[f64]) -> Result<f64, BackendError>,
     tolerance: f64,
     max_iterations: usize,
+    watch: &mut dyn FnMut(usize, f64) -> bool,
 ) -> Result<Pressure, BackendError> {
     let levels = Levels::new(share, graph)?;
     let graph = &levels.graphs[0];
@@ -61,6 +63,7 @@ pub(super) fn solve(
     // Twice the decrease of each iteration, the last ones.
     let mut decreases = [f64::INFINITY; DELAY];
     let mut lost = power(graph, &pressure)?;
+    let mut iterations = 0;
     for iteration in 0..max_iterations {
         let correction = levels.correct(0, &residual)?;
         // Conjugate to the last direction, whatever the preconditioner did.
@@ -93,11 +96,15 @@ pub(super) fn solve(
                 iterations: iteration + 1,
             });
         }
+        iterations = iteration + 1;
+        if !watch(iterations, error / lost) {
+            break;
+        }
     }
     Ok(Pressure {
         power: power(graph, &pressure)?,
         converged: false,
-        iterations: max_iterations,
+        iterations,
     })
 }
 

@@ -14,6 +14,7 @@ use crate::backend::{BackendError, Share};
 const STRIP: usize = 8;
 
 /// Solves for the pressure on the held rows of points that conduct, from the cubes of their gaps. The power is the permeance.
+/// `watch` is that of [`multigrid::solve`].
 ///
 /// # Errors
 /// A rank has ended.
@@ -23,6 +24,7 @@ pub(super) fn solve(
     cubes: Vec<f64>,
     tolerance: f64,
     max_iterations: usize,
+    watch: &mut dyn FnMut(usize, f64) -> bool,
 ) -> Result<Pressure, BackendError> {
     let width = frame.points[0];
     let layout = Layout::of_rows(share, STRIP, frame.repeats);
@@ -63,5 +65,13 @@ pub(super) fn solve(
         });
         layout.sum(share, lost)
     };
-    multigrid::solve(share, graph, source, power, tolerance, max_iterations)
+    multigrid::solve(
+        share,
+        graph,
+        source,
+        power,
+        tolerance,
+        max_iterations,
+        watch,
+    )
 }

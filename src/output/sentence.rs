@@ -101,6 +101,7 @@ impl AtZeroLoad {
         let greatest = rows
             .iter()
             .enumerate()
+            .filter(|(_, row)| row.has_solution())
             .max_by(|a, b| a.1.force.total_cmp(&b.1.force))?
             .0;
         let none = UNLOADED * rows[greatest].force;

@@ -108,7 +108,7 @@ impl Scene {
         }
         if let Some(table) = loading.as_object_mut() {
             table.remove("path");
-            if matches!(control, Control::Approach | Control::MeanGap) {
+            if !control.is_load() && !table.contains_key("spring") {
                 table.remove("pull_off_tolerance");
             }
         }

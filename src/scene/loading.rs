@@ -89,10 +89,11 @@ pub(super) fn read(
         loading.quantity(key, Dimension::ForcePerLength, Allowed::POSITIVE)
     });
     let pull_off_tolerance = loading.or("pull_off_tolerance", PULL_OFF_TOLERANCE, |key| {
-        if matches!(control, Some(Control::Approach | Control::MeanGap)) {
+        let is_position = matches!(control, Some(Control::Approach | Control::MeanGap));
+        if is_position && spring.flatten().is_none() {
             loading.conflict(
                 key,
-                "applies to a prescribed load; take control = \"pressure\" or \"force\", or leave the tolerance out",
+                "applies to a prescribed load and to a spring; take control = \"pressure\" or \"force\", or leave the tolerance out",
             );
         }
         loading.quantity(key, Dimension::Dimensionless, PULL_OFF_TOLERANCES)

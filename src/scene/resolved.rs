@@ -166,11 +166,11 @@ impl LoadingScene {
         };
         let table = with(table, "spring", self.spring);
         let table = with(table, "until", self.until_apart.then_some(APART));
-        let is_load = self.control.is_load();
+        let is_searched = self.control.is_load() || self.spring.is_some();
         with(
             table,
             "pull_off_tolerance",
-            is_load.then_some(self.pull_off_tolerance),
+            is_searched.then_some(self.pull_off_tolerance),
         )
     }
 }

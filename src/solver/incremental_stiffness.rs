@@ -13,7 +13,8 @@ use crate::backend::long_field::LongField;
 impl ContactSolver<'_> {
     /// Load that a unit displacement of the contact takes, reduced, summed over its points: 0
     /// without contact, infinite where a periodic cell is closed everywhere. `None` where the
-    /// residual, as a share of the displacement, is above `tolerance` after `most` iterations.
+    /// residual, as a share of the displacement, is above `tolerance` after `most` iterations, or where `watch`, which sees each of them
+    /// with its residual, ends them.
     ///
     /// `contact` is 1 on the points of the grid that are in contact and 0 elsewhere. On a periodic
     /// cell the displacement counts from its mean, so that the solid far below adds nothing.
@@ -24,6 +25,7 @@ impl ContactSolver<'_> {
         contact: &[f64],
         tolerance: f64,
         most: usize,
+        watch: &mut dyn FnMut(usize, f64) -> bool,
     ) -> Result<Option<f64>, BackendError> {
         let problem = self.problem.clone();
         let share = &problem.share;
@@ -45,7 +47,7 @@ impl ContactSolver<'_> {
         let mut residual = contact.clone();
         let mut direction = vec![0.0; contact.len()];
         let mut before = f64::INFINITY;
-        for _ in 0..most {
+        for iteration in 1..=most {
             let descent = cut(self.stiffness_times(&residual)?);
             let along = product(&residual, &descent);
             let beta = along / before;
@@ -65,11 +67,11 @@ impl ContactSolver<'_> {
                 *r -= step * m;
             }
             let left = (product(&residual, &residual) / touching as f64).sqrt();
-            if !left.is_finite() {
-                return Ok(None);
-            }
             if left <= tolerance {
                 return Ok(Some(share.sum(&pressure)));
+            }
+            if !left.is_finite() || !watch(iteration, left) {
+                return Ok(None);
             }
         }
         Ok(None)

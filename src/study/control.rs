@@ -209,18 +209,27 @@ impl<'s> Controller<'s> {
         compliance.min(self.pressure_load(0.0).zero_compliance)
     }
 
-    /// Whether a prescribed approach or gap lies beyond what a periodic cell can be closed by: to a wall, or
-    /// to the end of a law that repels by itself.
-    pub fn is_beyond_closure(&self, value: f64) -> bool {
+    /// The approach or mean gap, m, at which a periodic cell is closed everywhere: to a wall, or to the end of a law that repels by
+    /// itself. `None` where there is no such end.
+    pub fn closure(&self) -> Option<f64> {
         let least = self.problem.law.least_gap() * self.problem.scales.length;
-        self.problem.boundary == Boundary::Periodic
+        let is_closed = self.problem.boundary == Boundary::Periodic
             && !self.is_sprung()
-            && self.problem.hardness.is_none()
-            && match self.control {
-                Control::Approach => self.gap_at(value) < least,
-                Control::MeanGap => value < least,
-                _ => false,
-            }
+            && self.problem.hardness.is_none();
+        match self.control {
+            _ if !is_closed => None,
+            Control::Approach => Some(self.highest - least),
+            Control::MeanGap => Some(least),
+            Control::Pressure | Control::Force => None,
+        }
+    }
+
+    /// Whether a prescribed approach or gap lies beyond what a periodic cell can be closed by.
+    pub fn is_beyond_closure(&self, value: f64) -> bool {
+        self.closure().is_some_and(|closed| match self.control {
+            Control::MeanGap => value < closed,
+            _ => value > closed,
+        })
     }
 
     /// The undeformed gap over all solved points at a prescribed value, reduced: at first touch

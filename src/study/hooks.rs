@@ -102,12 +102,14 @@ pub(crate) trait Hooks: Sync {
         None
     }
     /// Measures a converged step of the path on its solver, once; loads between two steps are not measured. If
-    /// the measurement does not converge, neither has the step.
+    /// the measurement does not converge, neither has the step. `watch` sees each of its iterations with what stops them, and says
+    /// whether to go on.
     fn measure(
         &self,
         _setup: &Setup,
         _solver: &mut ContactSolver,
         _solved: &mut SolvedStep,
+        _watch: &mut dyn FnMut(usize, f64) -> bool,
     ) -> Result<(), BackendError> {
         Ok(())
     }

@@ -321,11 +321,20 @@ enum Followed {
     Heavier,
 }
 
+/// The states next to a jump that a search came to.
+pub(super) struct Ends {
+    /// The last before it.
+    pub before: (Place, StepRow),
+    /// The share of the step at which the first behind it is, with its row.
+    pub behind: (f64, StepRow),
+}
+
 /// What a search for a jump found.
-#[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) enum Confirmed {
-    /// Whether the step jumped.
-    Known(bool),
+    /// The step jumped; with the states next to it, where both have a position.
+    Jumped(Option<Box<Ends>>),
+    /// It did not.
+    Smooth,
     /// A load of the search did not converge; whether the step jumped as far as the loads before it show.
     Guessed(bool),
     /// The watch ended the search.
@@ -343,7 +352,7 @@ pub(super) fn confirm(
 ) -> Result<Confirmed, BackendError> {
     let prescribed = Prescribed::for_setup(between.means.setup);
     let Some(whole) = Piece::between(prescribed, before, row) else {
-        return Ok(Confirmed::Known(true));
+        return Ok(Confirmed::Jumped(None));
     };
     between.tell(Search::Jump);
     let tolerance = &mut between.means.tolerance;
@@ -390,7 +399,7 @@ fn follow(
             .zip(Piece::between(prescribed, &tried.row, &end.1));
         let Some((first, second)) = pieces else {
             // Separated between the two places.
-            return Ok(Confirmed::Known(true));
+            return Ok(Confirmed::Jumped(None));
         };
         let parts = |a: &StepRow, b: &StepRow| {
             followed == Followed::Parting
@@ -428,12 +437,12 @@ fn follow(
         };
         if bends && other.size() > half.size().max(least) {
             let found = follow(between, beside, least, Followed::Heavier)?;
-            if found != Confirmed::Known(false) {
+            if !matches!(found, Confirmed::Smooth) {
                 return Ok(found);
             }
         }
         if half.size() <= least {
-            return Ok(Confirmed::Known(false));
+            return Ok(Confirmed::Smooth);
         }
         // Of a jump the force keeps its change, whatever the losses of the halves are.
         // Nor does what compression leaves behind say that none is there.
@@ -445,7 +454,7 @@ fn follow(
             false => 0,
         };
         if shrinking > 0 && !bends || shrinking == SHRINKING {
-            return Ok(Confirmed::Known(false));
+            return Ok(Confirmed::Smooth);
         }
         keeping = match half.lost > least.max(half.doubt) && half.lost > KEEPS * whole.lost {
             true if half.lost > (SURE[0] * whole.lost).max(SURE[1] * half.doubt) => KEEPING,
@@ -453,11 +462,17 @@ fn follow(
             false => 0,
         };
         if keeping == KEEPING {
-            return Ok(Confirmed::Known(true));
+            break;
         }
         whole = half;
     }
-    Ok(Confirmed::Known(keeping > 0))
+    Ok(match keeping {
+        0 => Confirmed::Smooth,
+        _ => Confirmed::Jumped(Some(Box::new(Ends {
+            before: start,
+            behind: end,
+        }))),
+    })
 }
 
 /// Work done on the surfaces in a step less what they store and what the solid dissipates, J.

@@ -12,6 +12,7 @@ use super::step::SolvedStep;
 use super::walker::{Carried, Means, Walker};
 use crate::backend::BackendError;
 use crate::clock::Clock;
+use crate::kernel::Scalars;
 use crate::solver::MakeBackend;
 
 /// Walks a path from its first step. Ends at the first step that does not converge, which is handed
@@ -201,15 +202,16 @@ impl Stretch {
                 true
             }
         };
-        let mut solved = walker.advance(means, value, duration, &mut |scalars| {
-            watch(Watched::Iteration(scalars))
-        })?;
+        let mut iteration = |scalars: &Scalars| watch(Watched::Iteration(scalars));
+        let mut solved = walker.advance(means, value, duration, &mut iteration)?;
+        if !walker.is_interrupted() {
+            walker.measure(setup, &mut solved, &mut iteration)?;
+        }
         if walker.is_interrupted() {
             end.transforms = self.others + walker.solver.transforms();
             end.interrupted = true;
             return Ok(false);
         }
-        walker.measure(setup, &mut solved)?;
         if solved.converged {
             walker.settle()?;
         }
@@ -329,7 +331,16 @@ fn look_between(
     if let Verdict::Perhaps { way, least } = verdict {
         let left = between.walker.carried()?;
         let jumped = match confirm(&mut between, before, state, row, least)? {
-            Confirmed::Known(jumped) => jumped,
+            Confirmed::Jumped(ends) => {
+                if let (Some(ends), Some(spring)) = (ends, between.means.setup.spring())
+                    && way == Jump::Off
+                {
+                    let step = before.step;
+                    found.pull_off = pull_off::find_on_spring(&mut between, step, spring, *ends)?;
+                }
+                true
+            }
+            Confirmed::Smooth => false,
             Confirmed::Guessed(jumped) => {
                 found.jump_is_guessed = true;
                 jumped

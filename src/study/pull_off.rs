@@ -2,10 +2,12 @@
 //!
 //! Where the load is prescribed it lies between the last step that holds and the first that does not,
 //! and is narrowed down by loads between the two, each solved from the last one that held. Where a
-//! position is prescribed it is the greatest tension that the path passes.
+//! position is prescribed it is the greatest tension that the path passes; a contact that jumps off a spring
+//! ([`find_on_spring`]) carries more between two steps.
 
 use super::between::{Between, Place, Search};
 use super::hysteresis::span;
+use super::jumps::Ends;
 use super::observer::WalkEnd;
 use super::row::{State, StepRow};
 use super::setup::Setup;
@@ -251,5 +253,61 @@ pub(super) fn find(
         step,
         lower: tension(lower.share),
         upper: tension(upper),
+    }))
+}
+
+/// Narrows down the pull-off of a step that jumped off a spring (N/m), between the states next to the jump; `None` where that is
+/// no tension, and where the watch ended it.
+///
+/// Over a way of the far end the tension grows by what the spring stretches, if the contact gives way by nothing, and by less otherwise.
+pub(super) fn find_on_spring(
+    between: &mut Between,
+    step: usize,
+    spring: f64,
+    ends: Ends,
+) -> Result<Option<PullOff>, BackendError> {
+    let tolerance = between.means.setup.scene.loading.pull_off_tolerance;
+    let Ends {
+        before: mut held,
+        mut behind,
+    } = ends;
+    let tension = |row: &StepRow| -row.force;
+    let stretched =
+        |between: &Between, from: f64, to: f64| spring * (between.value(from) - between.value(to));
+    let mut lower = tension(&held.1);
+    if tolerance == 0.0 || lower <= 0.0 || between.to >= between.from {
+        return Ok(None);
+    }
+    let mut more = stretched(between, held.0.share, behind.0);
+    for _ in 0..MOST_TRIALS {
+        if more <= tolerance * tension(&held.1) {
+            break;
+        }
+        let share = 0.5 * (held.0.share + behind.0);
+        let tried = between.solve(&held.0, share)?;
+        if between.interrupted {
+            return Ok(None);
+        }
+        if !tried.row.converged {
+            break;
+        }
+        let apart = |row: &StepRow| Some((tried.row.approach? - row.approach?).abs());
+        match apart(&held.1) < apart(&behind.1) {
+            true => {
+                lower = lower.max(tension(&tried.row));
+                let place = Place {
+                    share,
+                    carried: tried.carried,
+                };
+                held = (place, tried.row);
+            }
+            false => behind = (share, tried.row),
+        }
+        more = stretched(between, held.0.share, behind.0);
+    }
+    Ok(Some(PullOff {
+        step,
+        lower,
+        upper: lower.max(tension(&held.1) + more),
     }))
 }

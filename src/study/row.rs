@@ -15,6 +15,8 @@ pub enum State {
     Attracted,
     /// Nothing touches and nothing attracts, or no equilibrium carries the load.
     Separated,
+    /// No contact has the prescribed value, as an approach beyond full contact.
+    Unknown,
 }
 
 impl State {
@@ -24,11 +26,13 @@ impl State {
             State::Contact => "contact",
             State::Attracted => "attracted",
             State::Separated => "separated",
+            State::Unknown => "unknown",
         }
     }
 }
 
-/// One row of `curve.csv`, SI units; `None` is written as an empty cell.
+/// One row of `curve.csv`, SI units; `None` is written as an empty cell. What is not a number is unknown: no contact has the prescribed
+/// value, and its [`state`](StepRow::state) says so.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
 #[non_exhaustive]
 pub struct StepRow {

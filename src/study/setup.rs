@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::control::Controller;
 use super::cut_edges::CutEdges;
 use super::hooks::{Effects, Hooks};
 use super::plan::Plan;
@@ -9,9 +10,10 @@ use super::regime::Regime;
 use super::row::Column;
 use crate::backend::ranks::Ranks;
 use crate::law::Law;
-use crate::scene::{Boundary, Scene};
+use crate::scene::{Boundary, Control, Scene};
 use crate::solver::Problem;
 use crate::surface::{MapOutline, Outline, Source, Surface, has_flats, statistics::Statistics};
+use crate::units::format_si;
 
 /// Everything that the steps of a path share.
 #[derive(Clone, Debug)]
@@ -87,7 +89,7 @@ impl Setup {
             effects.solved_law(law),
         );
         let problem = effects.pose(problem, &scene, surface.adhesion_map.as_deref());
-        Setup {
+        let mut setup = Setup {
             warnings,
             scene,
             surface,
@@ -98,7 +100,25 @@ impl Setup {
             transforms,
             effects,
             cut_edges,
-        }
+        };
+        setup.warnings.extend(setup.beyond_closure());
+        setup
+    }
+
+    /// A warning of a path that would end early, at a position that no contact has. The first step says so itself.
+    fn beyond_closure(&self) -> Option<String> {
+        let controller = Controller::new(self, &self.problem);
+        let mut steps = self.scene.loading.path.iter().zip(1..).skip(1);
+        let (value, step) = steps.find(|(value, _)| controller.is_beyond_closure(**value))?;
+        let what = match self.scene.loading.control {
+            Control::MeanGap => "a mean gap",
+            _ => "an approach",
+        };
+        Some(format!(
+            "step {step} prescribes {what} of {}, and the surfaces are closed everywhere at {}: the path ends there; end it earlier",
+            format_si(*value, "m"),
+            format_si(controller.closure()?, "m"),
+        ))
     }
 
     /// The law that is solved for, SI; the hard wall where the attraction is summed afterwards.

@@ -234,13 +234,28 @@ impl Walker {
         Ok(solved)
     }
 
-    /// Has effects measure a step of the path that converged.
-    pub fn measure(&mut self, setup: &Setup, solved: &mut SolvedStep) -> Result<(), BackendError> {
+    /// Has effects measure a step of the path that converged. `watch` sees each iteration of theirs, and says whether to continue.
+    pub fn measure(
+        &mut self,
+        setup: &Setup,
+        solved: &mut SolvedStep,
+        watch: &mut dyn FnMut(&Scalars) -> bool,
+    ) -> Result<(), BackendError> {
+        let mut going = true;
+        let mut watch = |iterations: usize, residual: f64| {
+            going = watch(&Scalars {
+                iterations: iterations as u32,
+                residual,
+                ..Scalars::start(0.0, false)
+            });
+            going
+        };
         for effect in setup.effects.iter() {
             if solved.converged {
-                effect.measure(setup, &mut self.solver, solved)?;
+                effect.measure(setup, &mut self.solver, solved, &mut watch)?;
             }
         }
+        self.interrupted = !going;
         Ok(())
     }
 
@@ -258,9 +273,15 @@ impl Walker {
     pub fn row(&self, setup: &Setup, step: usize, value: f64, solved: &SolvedStep) -> StepRow {
         let area = setup.surface.grid.area();
         let evaluation = solved.evaluation.as_ref();
+        let no_contact = solved.unreachable.filter(|why| why.is_without_state());
+        // What surfaces apart have of all that is summed over them; unknown where no contact has the prescribed value.
+        let (none, apart) = match no_contact {
+            Some(_) => (f64::NAN, State::Unknown),
+            None => (0.0, State::Separated),
+        };
         // A prescribed load is met to the residual, so the row has the prescribed one.
         let (force, mean_pressure) = match (setup.scene.loading.control, evaluation) {
-            (_, None) => (0.0, 0.0),
+            (_, None) => (none, none),
             (Control::Force, Some(_)) if solved.load_is_met => (value, value / area),
             (Control::Pressure, Some(_)) if solved.load_is_met => (value * area, value),
             (_, Some(evaluation)) => (evaluation.force, evaluation.force / area),
@@ -272,19 +293,19 @@ impl Walker {
             mean_gap: evaluation.map(|e| e.position.mean_gap),
             force,
             mean_pressure,
-            contact_area_fraction: evaluation.map_or(0.0, |e| e.contact),
-            attractive_area_fraction: evaluation.map_or(0.0, |e| e.attracted),
-            elastic_energy: evaluation.map_or(solved.left_energy, |e| e.elastic_energy),
-            adhesive_energy: evaluation.map_or(0.0, |e| e.adhesive_energy),
+            contact_area_fraction: evaluation.map_or(none, |e| e.contact),
+            attractive_area_fraction: evaluation.map_or(none, |e| e.attracted),
+            elastic_energy: evaluation.map_or(solved.left_energy + none, |e| e.elastic_energy),
+            adhesive_energy: evaluation.map_or(none, |e| e.adhesive_energy),
             iterations: solved.iterations,
             residual: solved.residual,
             converged: solved.converged,
             seconds: 0.0,
             contact_area_fraction_corrected: match evaluation {
                 Some(evaluation) => evaluation.contact_corrected,
-                None => setup.problem.law.has_wall().then_some(0.0),
+                None => setup.problem.law.has_wall().then_some(none),
             },
-            state: evaluation.map_or(State::Separated, |e| e.state),
+            state: evaluation.map_or(apart, |e| e.state),
             columns: Vec::new(),
         };
         let columns = setup.columns();

@@ -258,8 +258,8 @@ fn a_contact_that_is_wide_for_its_sphere_is_warned_of_once() {
     assert_eq!(said.matches("the radius of contact").count(), 1, "{said}");
 }
 
-/// On a soft spring the contact lets go at its greatest tension: steps of a third of it may end far below, and say so; those of a
-/// fiftieth are within it.
+/// On a soft spring the contact lets go at its greatest tension. Steps of a third of it may end far below, and say so where nothing is
+/// looked for between them; else they find what short ones do.
 fn a_contact_that_lets_go_while_its_tension_grows_is_warned_of() {
     let folder = scene(
         r#"
@@ -271,29 +271,91 @@ loading = { control = "approach", spring = 0.5, path = ["15 nm"] }
 output = { images = [] }
 "#,
     );
-    let [[long, said], [short, unsaid]] = [("long", -100), ("short", -5)].map(|(name, step)| {
-        let places = (0..).map(|i| i * step).take_while(|place| *place >= -400);
-        let places: Vec<String> = places.map(|place| format!("{place}e-9")).collect();
-        let path = format!("loading.path=[15e-9, {}]", places.join(", "));
-        let call = [
-            "run",
-            "scene.toml",
-            "--quiet",
-            "--out",
-            name,
-            "--set",
-            &path,
-        ];
-        let output = tabor(folder.path(), &call);
-        assert_eq!(status(&output), 0, "{}", errors(&output));
-        let found = &summary(&folder.path().join(name))["pull_off_force"];
-        [found.to_string(), errors(&output)]
-    });
-    let words = "and the contact let go in the next: its pull-off may be far greater";
+    let [long, searched, short] =
+        [("0", -100), ("0.01", -100), ("0.01", -5)].map(|(tolerance, step)| {
+            let places = (0..).map(|i| i * step).take_while(|place| *place >= -400);
+            let places: Vec<String> = places.map(|place| format!("{place}e-9")).collect();
+            let path = format!("loading.path=[15e-9, {}]", places.join(", "));
+            let tolerance = format!("loading.pull_off_tolerance={tolerance}");
+            let out = format!("o{tolerance}{step}");
+            let call = [
+                "run",
+                "scene.toml",
+                "--quiet",
+                "--out",
+                &out,
+                "--set",
+                &path,
+                "--set",
+                &tolerance,
+            ];
+            let output = tabor(folder.path(), &call);
+            assert_eq!(status(&output), 0, "{}", errors(&output));
+            let said = errors(&output)
+                .contains("and the contact let go in the next: its pull-off may be far greater");
+            let summary = summary(&folder.path().join(out));
+            let found = ["force", "lower", "upper"]
+                .map(|name| summary[format!("pull_off_{name}")].as_f64());
+            (said, found)
+        });
+    let (true, [Some(of_steps), None, None]) = long else {
+        panic!("{long:?}");
+    };
+    let [
+        (false, [Some(searched), Some(lower), Some(upper)]),
+        (false, [Some(short), ..]),
+    ] = [searched, short]
+    else {
+        panic!("{searched:?} {short:?}");
+    };
+    assert!(
+        searched == lower && upper - lower <= 0.01 * upper,
+        "{lower} {upper}"
+    );
+    assert!(1.02 * of_steps < short, "{of_steps} {short}");
+    // Each is known to 1 %.
+    assert!((searched / short - 1.0).abs() < 0.01, "{searched} {short}");
+}
+
+/// A wave of 10 nm is closed everywhere at an approach of 10 nm: what lies beyond is said before the run comes to it, and its row has no
+/// number that could be taken for one.
+fn a_position_beyond_full_contact_has_no_values() {
+    let folder = scene(
+        r#"
+grid = { points = [64, 2], size = ["1 um", "31.25 nm"] }
+solid = { contact_modulus = "1 GPa" }
+surface = [{ kind = "wavy", amplitude = "5 nm", wavelength = ["1 um", inf] }]
+loading = { control = "approach", path = ["5 nm", "30 nm", "5 nm"] }
+output = { images = [] }
+"#,
+    );
+    let output = tabor(
+        folder.path(),
+        &["run", "scene.toml", "--quiet", "--out", "out"],
+    );
+    assert_eq!(status(&output), 3, "{}", errors(&output));
+    let said = errors(&output);
+    let words = "step 2 prescribes an approach of 30 nm, and the surfaces are closed everywhere at 5 nm: the path ends there";
     assert!(said.contains(words), "{said}");
-    assert!(!unsaid.contains(words), "{unsaid}");
-    let [long, short] = [long, short].map(|found| found.parse::<f64>().expect("a pull-off"));
-    assert!(1.02 * long < short, "{long} {short}");
+    assert!(
+        said.contains("cannot be closed further than full contact"),
+        "{said}"
+    );
+    let rows = table(&folder.path().join("out/curve.csv"));
+    let [first, last] = &rows[..] else {
+        panic!("{rows:?}");
+    };
+    assert_eq!(first["state"], "contact");
+    assert_eq!([&last["state"], &last["converged"]], ["unknown", "false"]);
+    for name in [
+        "force",
+        "mean_pressure",
+        "contact_area_fraction",
+        "elastic_energy",
+    ] {
+        assert_eq!(last[name], "NaN", "{name}");
+    }
+    assert_eq!([&last["approach"], &last["mean_gap"]], ["", ""]);
 }
 
 /// Crests on few points: as one more of them touches, its attraction ends, and the net load jumps past the prescribed one: by 2 % at least
@@ -581,6 +643,7 @@ tests![
     a_net_load_that_jumps_past_the_prescribed_one_is_warned_of,
     a_treatment_that_does_not_hold_is_warned_of,
     a_contact_that_lets_go_while_its_tension_grows_is_warned_of,
+    a_position_beyond_full_contact_has_no_values,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
     a_contact_that_is_wide_for_its_sphere_is_warned_of_once,

@@ -11,7 +11,7 @@ use tabor::law::Law;
 
 use crate::shared::device::{backend, device, device_with_double, relative_difference};
 use crate::shared::random::Random;
-use crate::shared::trials::{ignore, tests};
+use crate::shared::trials::{ignore, is_long, tests};
 
 /// Relative L2 error of a single-precision convolution: some ten roundings of 6e-8 in the root
 /// mean square (two transforms of at most twelve stages, and the inputs' own rounding).
@@ -19,12 +19,10 @@ const BOUND: f64 = 5e-7;
 /// The same in double precision, twice: the processor it is compared with rounds as well.
 const BOUND_IN_DOUBLE: f64 = 2.0 * BOUND * f64::EPSILON / f32::EPSILON as f64;
 
-const SIZES: [[usize; 2]; 11] = [
-    [64, 64],
+/// Every radix each way, lines of one and of a few values, and as long ones as pass through workgroup memory at once.
+const SIZES: [[usize; 2]; 8] = [
     [96, 128],
     [120, 84],
-    [84, 120],
-    [256, 256],
     [2, 2],
     [8, 2],
     [2, 8],
@@ -32,6 +30,8 @@ const SIZES: [[usize; 2]; 11] = [
     [1024, 6],
     [6, 4096],
 ];
+/// Others, and long lines, which pass through workgroup memory in two and in four rounds.
+const MORE_SIZES: [[usize; 2]; 5] = [[64, 64], [84, 120], [256, 256], [16384, 2], [2, 8192]];
 
 fn params() -> Params {
     Params {
@@ -55,7 +55,9 @@ fn params() -> Params {
 
 /// Those in double precision, whose shaders are slow to compile in software: every radix each way, and
 /// the ways of passing values between threads.
-const SIZES_IN_DOUBLE: [[usize; 2]; 4] = [[120, 84], [28, 250], [2048, 2], [6, 4096]];
+const SIZES_IN_DOUBLE: [[usize; 2]; 3] = [[120, 84], [2048, 2], [6, 4096]];
+/// As with those in single precision.
+const MORE_SIZES_IN_DOUBLE: [[usize; 2]; 3] = [[28, 250], [8192, 2], [2, 8192]];
 
 /// What one convolution gives: of one field with the stiffness, with its energy, and of a sum of two with
 /// another response; of both with a table where there is none.
@@ -115,13 +117,12 @@ fn convolution_in_double_precision_agrees_with_the_processor() {
     agrees_with_the_processor(&SIZES_IN_DOUBLE, Number::Double);
 }
 
-/// Lines that pass through workgroup memory in two and in four rounds.
-fn convolution_of_long_lines_agrees_with_the_processor() {
-    if std::env::var_os("TABOR_LONG").is_none() {
+fn convolution_of_more_sizes_agrees_with_the_processor() {
+    if !is_long() {
         ignore("a software driver takes a minute to compile these; set TABOR_LONG=1");
     }
-    agrees_with_the_processor(&[[16384, 2], [2, 8192]], Number::Single);
-    agrees_with_the_processor(&[[8192, 2], [2, 8192]], Number::Double);
+    agrees_with_the_processor(&MORE_SIZES, Number::Single);
+    agrees_with_the_processor(&MORE_SIZES_IN_DOUBLE, Number::Double);
 }
 
 fn agrees_with_the_processor(sizes: &[[usize; 2]], number: Number) {
@@ -304,7 +305,7 @@ fn kernels_are_timed_on_the_device() {
 tests![
     convolution_agrees_with_the_processor,
     convolution_in_double_precision_agrees_with_the_processor,
-    convolution_of_long_lines_agrees_with_the_processor,
+    convolution_of_more_sizes_agrees_with_the_processor,
     a_shut_gate_leaves_everything_as_it_was,
     what_cannot_be_done_is_an_error_where_the_host_waits,
     a_kernel_without_a_shader_is_an_error_where_the_host_waits,

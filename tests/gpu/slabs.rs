@@ -96,7 +96,7 @@ fn convolve(backend: &mut dyn Backend, [nx, ny]: [usize; 2], tabulated: bool) ->
 fn a_convolution_in_slabs_is_the_same_to_the_last_bit() {
     let device = device();
     for (size, bytes, slabs, tabulated) in [
-        ([256, 256], 64 << 10, 4, false),
+        ([64, 64], 4 << 10, 4, false),
         // 42 pairs: six slabs of seven. The table is in two parts.
         ([120, 84], 7 << 10, 6, true),
         ([16, 250], 4 << 10, 5, false),
@@ -127,8 +127,8 @@ const BOUND: f64 = 5e-7;
 /// Lines in two passes along x, along y, along both, of equal and of unequal shares, and in slabs.
 fn a_convolution_of_long_lines_agrees_with_the_processor() {
     for (size, points, bytes, tabulated) in [
-        ([256, 256], 64, 1 << 20, false),
-        ([256, 32], 64, 1 << 20, false),
+        ([64, 64], 16, 1 << 20, false),
+        ([64, 12], 16, 1 << 20, false),
         // 12 * 10 and 18 * 14, in six slabs of 21 pairs; 2 * 7 * 7 as 14 * 7 and 2 * 5^3 as 10 * 25.
         ([120, 252], 30, 20 << 10, true),
         ([98, 250], 30, 1 << 20, false),

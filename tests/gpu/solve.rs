@@ -147,7 +147,7 @@ fn at_gap(problem: &Problem, gap: f64) -> Load {
 
 fn rough_hard_wall() {
     let device = device();
-    let surface = rough(128);
+    let surface = rough(64);
     let problem = Problem::new(
         surface.grid,
         Boundary::Periodic,

@@ -1,10 +1,12 @@
 //! What flows through a solved gap: one channel, many channels beside the effective medium, and where none is left.
 
+use std::convert::Infallible;
 use std::f64::consts::PI;
 
-use tabor::study::{Evaluation, PointState};
+use tabor::kernel::Scalars;
+use tabor::study::{Evaluation, FinishedStep, Observer, PointState, walk};
 
-use crate::bench::{Solved, solve, solve_table};
+use crate::bench::{Solved, cpu, setup, solve, solve_table};
 use crate::shared::trials::tests;
 
 /// A twelfth: flow conductances are permeances then.
@@ -150,7 +152,54 @@ fn no_gap() {
     }
 }
 
+/// Ends a run at an iteration.
+struct EndsAt {
+    iterations: usize,
+    last: usize,
+}
+
+impl Observer for EndsAt {
+    type Error = Infallible;
+
+    fn step(&mut self, _: FinishedStep) -> Result<(), Infallible> {
+        Ok(())
+    }
+
+    fn iteration(&mut self, _: usize, _: &Scalars) -> bool {
+        self.iterations += 1;
+        self.iterations < self.last
+    }
+}
+
+/// What is measured on a solved contact may take longer than the contact: it ends where a run is asked to, and the step is not done.
+fn a_measurement_is_interrupted() {
+    let flows = rough(1, "x", "[1e-3]");
+    let contact = flows.replace(&leakage("x"), "");
+    let conducts =
+        format!("{contact}[conductance]\nconductivity = 1.0\ncounter_conductivity = 1.0\n");
+    let walked = |text: &str, last: usize| {
+        let mut observer = EndsAt {
+            iterations: 0,
+            last,
+        };
+        let end = walk(&setup(text), &|| cpu(), &mut observer);
+        let end = end.unwrap_or_else(|error| panic!("{error}"));
+        (end.interrupted, end.rows.len(), observer.iterations)
+    };
+    let (_, steps, of_contact) = walked(&contact, usize::MAX);
+    assert_eq!(steps, 1);
+    for text in [flows, conducts] {
+        let (is_interrupted, steps, of_all) = walked(&text, usize::MAX);
+        assert!(
+            !is_interrupted && steps == 1 && of_all > of_contact + 2,
+            "{of_all} {of_contact}"
+        );
+        assert_eq!(walked(&text, of_contact + 2), (true, 0, of_contact + 2));
+    }
+}
+
 tests![
+    a_measurement_is_interrupted,
     a_channel_beside_a_ridge,
     beside_the_effective_medium,
     the_threshold_of_a_contact,

@@ -133,7 +133,55 @@ fn a_soft_spring_holds_as_much_as_a_prescribed_force() {
     }
 }
 
+/// Long steps of the far end bracket the pull-off that a prescribed force has, to the tolerance that both are asked for, also where
+/// their last one adds a tenth of it.
+fn long_steps_of_a_spring_bracket_its_pull_off() {
+    let (work, range, side, tolerance) = (1e-4, 5e-3, 0.8, 0.004);
+    let scale = 2.0 * PI * work;
+    let stiffness = 1e-3 * side;
+    let path: Vec<f64> = (0..14)
+        .map(|i| 0.2 * scale - 0.12 * scale * f64::from(i))
+        .collect();
+    for law in ["lennard-jones\"", "maugis-dugdale\""] {
+        let pull_off = |loading: String| {
+            let text = format!(
+                "[grid]\npoints = 48\nsize = {side}\nboundary = \"free\"\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"sphere\"\nradius = 1.0\n[adhesion]\nlaw = \"{law}\nwork_of_adhesion = {work:e}\nrange = {range:e}\n[loading]\npull_off_tolerance = {tolerance}\n{loading}"
+            );
+            let end = solve_table(&text).end;
+            let found = end
+                .pull_off
+                .unwrap_or_else(|| panic!("{law}: no pull-off in {:?}", end.rows));
+            let greatest = end
+                .rows
+                .iter()
+                .fold(0.0, |most: f64, row| most.max(-row.force));
+            (found, greatest)
+        };
+        let (by_force, _) = pull_off(format!("control = \"force\"\npath = {path:?}\n"));
+        let far_ends: Vec<f64> = path.iter().map(|force| force / stiffness).collect();
+        let (sprung, of_steps) = pull_off(format!(
+            "control = \"approach\"\nspring = {stiffness:e}\npath = {far_ends:?}\n"
+        ));
+        println!("{law}: {by_force:?}, {sprung:?}, of the steps {of_steps:e}");
+        assert!(
+            of_steps < (1.0 - 2.0 * tolerance) * by_force.lower,
+            "{law}: the steps alone show it"
+        );
+        assert!(
+            sprung.upper - sprung.lower <= tolerance * sprung.upper,
+            "{law}: {sprung:?}"
+        );
+        // States between the steps are solved to 1e-4.
+        let error = 1e-3 * by_force.upper;
+        assert!(
+            sprung.lower < by_force.upper + error && sprung.upper > by_force.lower - error,
+            "{law}: {sprung:?} {by_force:?}"
+        );
+    }
+}
+
 tests![
     snaps_where_the_line_touches_the_curve,
     a_soft_spring_holds_as_much_as_a_prescribed_force,
+    long_steps_of_a_spring_bracket_its_pull_off,
 ];

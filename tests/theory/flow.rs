@@ -359,7 +359,7 @@ fn on_ranks(gap: &[f64], film: Film, ranks: usize) -> Vec<Flow> {
                     let share = Share::on_ranks(shape, Some(Arc::new(rank)));
                     let rows = share.rows();
                     let own = gap[rows.start * film.grid.nx..rows.end * film.grid.nx].to_vec();
-                    film.flow_on(&share, own, TOLERANCE, MOST)
+                    film.flow_on(&share, own, TOLERANCE, MOST, &mut |_, _| true)
                         .expect("all ranks")
                 })
             })

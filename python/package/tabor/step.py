@@ -29,7 +29,7 @@ class Step:
         How well it is solved; `unreachable` is why not, where the iterations are not the reason, and None otherwise. Of a value that no
         contact can have, as a position beyond full contact, the fields are NaN.
     state, jump : str
-        "contact", "attracted" or "separated"; "in", "off" or None.
+        "contact", "attracted" or "separated", and "unknown" where no contact has the prescribed value; "in", "off" or None.
     pull_off : (float, float) or None
         Tensions, N, between which the contact let go under a prescribed load, if it did up to here on its path.
     columns : dict

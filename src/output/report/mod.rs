@@ -479,16 +479,20 @@ fn work_done(rows: &[StepRow]) -> Vec<Option<f64>> {
 /// A row of the table of steps, with the further quantities at its index.
 fn step(row: &StepRow, quantities: &[Quantity], index: usize) -> Markup {
     let shown = |value: Option<f64>, unit: &str| {
-        value.map_or("–".to_owned(), |value| format_si(value, unit))
+        let value = value.filter(|value| !value.is_nan());
+        value.map_or("–".to_owned(), |value| match unit {
+            "%" => per_cent(value),
+            _ => format_si(value, unit),
+        })
     };
     let length = |value: Option<f64>| shown(value, "m");
     let cells = [
         row.step.to_string(),
         length(row.approach),
         length(row.mean_gap),
-        format_si(row.force, "N"),
-        format_si(row.mean_pressure, "Pa"),
-        per_cent(row.contact_area_fraction),
+        shown(Some(row.force), "N"),
+        shown(Some(row.mean_pressure), "Pa"),
+        shown(Some(row.contact_area_fraction), "%"),
         row.iterations.to_string(),
         format!("{:.1e}", row.residual),
     ];

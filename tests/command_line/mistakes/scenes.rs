@@ -381,7 +381,7 @@ fn mistakes_in_loading(tables: &mut Vec<Edits>) {
     ]});
     tables.push(Edits { base: spring(), cases: &[
         ("path = [\"1 nm\"]\nspring = \"1 N/m\"", r#"path = ["1 MPa"]"#, r#"s.toml:16: loading.path.0: "MPa" is a pressure in Pa"#, "give a length in m"),
-        (r#"spring = "1 N/m""#, "pull_off_tolerance = 0.01", "s.toml:17: loading.pull_off_tolerance: applies to a prescribed load", "leave the tolerance out"),
+        (r#"spring = "1 N/m""#, "pull_off_tolerance = 0.01", "s.toml:17: loading.pull_off_tolerance: applies to a prescribed load and to a spring", "leave the tolerance out"),
         (r#"spring = "1 N/m""#, "spring = 0", "s.toml:17: loading.spring: 0 is out of range", "finite and above 0"),
         (r#"spring = "1 N/m""#, r#"spring = "1 N""#, r#"s.toml:17: loading.spring: "N" is a force in N"#, "a force per length in N/m"),
     ]});
