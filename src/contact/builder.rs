@@ -197,7 +197,7 @@ impl Contact {
         self
     }
 
-    /// Sets how well the tension at which a path under a load lets go is narrowed down, relative; 0 for not
+    /// Sets how well the tension at which a path under a load or on a spring lets go is narrowed down, relative; 0 for not
     /// at all, 0.01 by default.
     pub fn pull_off_tolerance(mut self, tolerance: f64) -> Self {
         self.scene.loading.pull_off_tolerance = tolerance;

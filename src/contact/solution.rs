@@ -51,8 +51,8 @@ pub struct Solution {
     pub state: State,
     /// The jump between this load and the one before, if there was one.
     pub jump: Option<Jump>,
-    /// The tensions, N, between which the contact let go under a prescribed load, where it did on the path up to
-    /// here: the greatest that held and the least that did not. `Contact::pull_off_tolerance` says how close they are.
+    /// The tensions, N, between which the contact let go under a prescribed load or off a spring, where it did on the path up to
+    /// here: the greatest that held and the least that did not, or that the spring could not pass. `Contact::pull_off_tolerance` says how close they are.
     pub pull_off: Option<[f64; 2]>,
     /// The row of `curve.csv`: energies, areas, and what effects add.
     pub row: StepRow,

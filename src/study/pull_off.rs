@@ -24,14 +24,14 @@ const SHOWN: f64 = 0.01;
 /// Loads tried for one pull-off at most. Halving gains a thousand in ten, and the least tolerance is 1e-6.
 const MOST_TRIALS: usize = 60;
 
-/// A contact that separated under a prescribed load, with the tensions that bracket its pull-off, N.
+/// A contact that separated under a prescribed load or jumped off a spring, with the tensions that bracket its pull-off, N.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PullOff {
     /// The last step that held.
     pub step: usize,
     /// The greatest tension that held; 0 where only compression did.
     pub lower: f64,
-    /// The least tension that did not.
+    /// The least tension that did not, or that a spring could not pass.
     pub upper: f64,
 }
 

@@ -31,7 +31,7 @@ class Step:
     state, jump : str
         "contact", "attracted" or "separated", and "unknown" where no contact has the prescribed value; "in", "off" or None.
     pull_off : (float, float) or None
-        Tensions, N, between which the contact let go under a prescribed load, if it did up to here on its path.
+        Tensions, N, between which the contact let go under a prescribed load or off a spring, if it did up to here on its path.
     columns : dict
         What effects add, by the names of ``curve.csv``.
     """
