@@ -2,7 +2,11 @@
 
 use crate::scene::Scene;
 use crate::solver::Problem;
-use crate::study::{Hooks, Plan};
+use crate::study::{Hooks, Plan, Setup, State, StepRow};
+use crate::units::format_si;
+
+/// Share of its thickness by which a layer is pressed together that is said: strains are no longer small.
+const DEEP: f64 = 0.2;
 
 /// A layer in place of the half-space.
 pub(super) struct LayerEffect;
@@ -38,6 +42,20 @@ impl Hooks for LayerEffect {
         format!(
             "matters where contacts are as wide as it is thick: here the longest wave of the cell meets {stiffer:.3} times the half-space's stiffness"
         )
+    }
+
+    fn warning_of_step(&self, setup: &Setup, row: &StepRow) -> Option<[String; 2]> {
+        let thickness = setup.scene.solid.layer?.thickness;
+        let share = row.approach? / thickness;
+        (row.state == State::Contact && share > DEEP).then(|| {
+            [
+                format!(
+                    "the layer is pressed together by {}, {share:.2} of its thickness",
+                    format_si(row.approach.unwrap_or_default(), "m")
+                ),
+                "; linear elasticity holds where that is a small part of it".to_owned(),
+            ]
+        })
     }
 
     fn pose(&self, problem: Problem, scene: &Scene, _: Option<&[f64]>) -> Problem {

@@ -89,7 +89,7 @@ pub(super) fn read(bytes: &[u8], path: &Path, how: &CurveColumns) -> Result<Forc
     let step = scale
         .split_once('(')
         .and_then(|(_, rest)| rest.split_once("/LSB)"))
-        .and_then(|(step, _)| volts(step))
+        .and_then(|(step, range)| Some(unrounded(step, volts(step)?, volts(range))))
         .ok_or_else(|| broken("\"@4:z scale\" states no volts of an integer".to_owned()))?;
     let to_length = match how.sensitivity {
         Some(own) => own,
@@ -147,6 +147,22 @@ pub(super) fn read(bytes: &[u8], path: &Path, how: &CurveColumns) -> Result<Forc
     add(&extension, true);
     add(&retraction, false);
     Ok(curve)
+}
+
+/// The volts of an integer, which a header prints to few digits: where they are those of the whole range over the integers of 16 or 32
+/// bits, to the last digit of the `text`, these. A curve of deflections magnifies their rounding.
+fn unrounded(text: &str, printed: f64, range: Option<f64>) -> f64 {
+    let number = text.trim_start().split(' ').next().unwrap_or_default();
+    let decimals = number.split_once('.').map_or("", |(_, decimals)| decimals);
+    if decimals.is_empty() || !decimals.bytes().all(|digit| digit.is_ascii_digit()) {
+        return printed;
+    }
+    let unit = printed / number.parse().unwrap_or(f64::NAN);
+    let last_digit = 0.1_f64.powi(decimals.len() as i32) * unit;
+    let whole = [16, 32].map(|bits| range.unwrap_or(f64::NAN) / 2_f64.powi(bits));
+    let is_printed = |exact: &f64| (exact - printed).abs() <= 0.5001 * last_digit;
+    let exact = whole.into_iter().find(is_printed);
+    exact.filter(|exact| *exact > 0.0).unwrap_or(printed)
 }
 
 /// Brings both parts into the order of time: they meet where the ramp turns. Versions store the extension in either order.
@@ -214,6 +230,25 @@ fn change(values: &[f64]) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn rounded_volts_of_an_integer_are_those_of_the_range() {
+        let of =
+            |text: &str, range: &str| unrounded(text, volts(text).expect("volts"), volts(range));
+        let exact = 24.576 / 2_f64.powi(32);
+        assert_eq!(of("0.0000000057 V", " 24.57600 V"), exact);
+        assert_eq!(of("0.00000000572205 V", "24.576 V"), exact);
+        assert_eq!(of("0.000375 V", "24.576 V"), 24.576 / 65536.0);
+        assert_eq!(of("0.3750 mV", "24.576 V"), 24.576 / 65536.0);
+        // Another range, or a number that is not of this form.
+        assert_eq!(of("0.0000000057 V", "20 V"), 0.0000000057);
+        assert_eq!(
+            of("0.3750 mV", "24.6 V"),
+            volts("0.3750 mV").expect("volts")
+        );
+        assert_eq!(of("5.7e-9 V", "24.576 V"), 5.7e-9);
+        assert_eq!(of("0.0000000057 V", "?"), 0.0000000057);
+    }
 
     /// Noise of a part in a thousand of the deflections below.
     fn noise(index: usize) -> f64 {

@@ -121,7 +121,10 @@ pub(super) fn is_loose(loading: &LoadingScene, [lower, upper]: [f64; 2], greates
 fn lets_go_later(loading: &LoadingScene, rows: &[StepRow], held: usize) -> bool {
     let (before, later) = rows.split_at(held);
     let tense = &before[held - 1];
-    let places = |row: &StepRow| row.place(loading.control).zip(tense.place(loading.control));
+    let places = |row: &StepRow| {
+        row.prescribed_place(loading)
+            .zip(tense.prescribed_place(loading))
+    };
     let is_further = |row: &StepRow| {
         places(row).is_some_and(|(there, here)| there < here) && row.force > tense.force
     };

@@ -3,7 +3,9 @@
 //! A step assumes that the displacement is linear in time and is otherwise exact. For a contact of
 //! constant shape the response between two kinks of the path is known beforehand: after a kink it
 //! is a sum of exponentials, over the retardation times under a prescribed load and over the
-//! relaxation times under a prescribed position. An attraction acts as a load under every control.
+//! relaxation times under a prescribed position. A spring between position and body, and an attraction, lie between the two: the
+//! displacement then creeps as that of a solid whose branches lie beside a stiffer spring than its own, which how much depends on
+//! the contact (`E_inf + k/c` for a spring `k` and a contact that takes `c E`). Steps are straight enough for all of these.
 //! Each ramp is halved recursively until every step is straight enough, so steps are short after a
 //! kink and grow with the time since it.
 //!
@@ -27,6 +29,9 @@ const SAME_RATE: f64 = 1e-12;
 
 /// Mean over its middle of a parabola that vanishes at both ends.
 const MEAN_OF_A_BEND: f64 = 2.0 / 3.0;
+
+/// Ratio of one stiffness beside the branches to the next: retardation times differ by no more.
+const NEXT_STIFFNESS: f64 = 2.0;
 
 /// Halvings of the interval between two relaxation times, enough for every bit of a double.
 const BISECTIONS: usize = 200;
@@ -167,18 +172,13 @@ impl Scene {
 /// Divides the legs of one path into steps.
 #[derive(Debug)]
 pub(super) struct Cutter {
-    modes: Vec<Mode>,
-    /// Greatest response of the path, in the unit of the values.
-    scale: f64,
-    /// Upper bound on the error of the response, relative to the deviation from its chord.
-    gain: f64,
+    responses: Vec<Response>,
     tolerance: f64,
-    value: f64,
 }
 
 impl Cutter {
     /// A cutter for the path of a solid from `start` over all its legs, to a relative error of
-    /// `tolerance`. `creeps` is true if a load acts, including an attraction or a spring.
+    /// `tolerance`. `creeps` is true if a load acts under a prescribed position too: an attraction or a spring.
     pub fn new(
         solid: &SolidScene,
         control: Control,
@@ -187,12 +187,78 @@ impl Cutter {
         legs: &[Leg],
         tolerance: f64,
     ) -> Cutter {
-        let creeps = creeps || control.is_load();
-        let modes = if creeps {
-            retardation(solid)
-        } else {
-            relaxation(solid)
+        let mut responses = Vec::new();
+        let mut add = |modes, creeps| {
+            responses.push(Response::new(modes, control, creeps, start, legs));
         };
+        if control.is_load() || creeps {
+            add(retardation(solid, solid.contact_modulus), true);
+        }
+        if !control.is_load() {
+            add(relaxation(solid), false);
+        }
+        if creeps && !control.is_load() {
+            let branches = solid.relaxation.iter().map(|branch| branch.modulus);
+            let at_once = solid.contact_modulus + branches.sum::<f64>();
+            let mut stiffness = NEXT_STIFFNESS * solid.contact_modulus;
+            while stiffness < NEXT_STIFFNESS * at_once {
+                add(retardation(solid, stiffness), true);
+                stiffness *= NEXT_STIFFNESS;
+            }
+        }
+        Cutter {
+            responses,
+            tolerance,
+        }
+    }
+
+    /// Passes over a leg without dividing it.
+    pub fn go(&mut self, leg: &Leg) {
+        self.responses
+            .iter_mut()
+            .for_each(|response| response.go(leg));
+    }
+
+    /// Divides a leg into steps: the share of each step in its duration, powers of one half that
+    /// add up to 1. `None` if there are more than `most`.
+    pub fn cut(&mut self, leg: &Leg, most: usize) -> Option<Vec<f64>> {
+        let mut shares = Vec::new();
+        // Start and length of the parts still to be divided, as shares of the leg; the next one is
+        // last.
+        let mut open = vec![(0.0, 1.0)];
+        while let Some((begin, length)) = open.pop() {
+            let is_bent = |response: &Response| response.error(leg, begin, length) > self.tolerance;
+            if leg.duration > 0.0 && self.responses.iter().any(is_bent) {
+                let half = 0.5 * length;
+                open.push((begin + half, half));
+                open.push((begin, half));
+                // Each of these becomes at least one step.
+                if shares.len() + open.len() > most {
+                    return None;
+                }
+            } else {
+                shares.push(length);
+            }
+        }
+        self.go(leg);
+        Some(shares)
+    }
+}
+
+/// One way in which a contact may answer.
+#[derive(Debug)]
+struct Response {
+    modes: Vec<Mode>,
+    /// Greatest response of the path, in the unit of the values.
+    scale: f64,
+    /// Upper bound on the error of the response, relative to the deviation from its chord.
+    gain: f64,
+    value: f64,
+}
+
+impl Response {
+    /// That of these modes to a path from `start` over all its legs; `creeps` where they are of a displacement.
+    fn new(modes: Vec<Mode>, control: Control, creeps: bool, start: f64, legs: &[Leg]) -> Response {
         // The initial indentation under a mean gap is unknown: the memory is bounded by the whole
         // change of the path, and the error is compared with no more than that change.
         let (first, least) = match control {
@@ -214,28 +280,27 @@ impl Cutter {
         } else {
             1.0
         };
-        let mut cutter = Cutter {
+        let mut response = Response {
             modes,
             scale: 0.0,
             gain,
-            tolerance,
             value: start,
         };
-        for mode in &mut cutter.modes {
+        for mode in &mut response.modes {
             mode.memory = least;
         }
         let mut level = least;
-        cutter.scale = cutter.answer(level, creeps);
+        response.scale = response.answer(level, creeps);
         for leg in legs {
-            level += leg.to - cutter.value;
-            cutter.go(leg);
-            cutter.scale = cutter.scale.max(cutter.answer(level, creeps));
+            level += leg.to - response.value;
+            response.go(leg);
+            response.scale = response.scale.max(response.answer(level, creeps));
         }
-        for mode in &mut cutter.modes {
+        for mode in &mut response.modes {
             mode.memory = first;
         }
-        cutter.value = start;
-        cutter
+        response.value = start;
+        response
     }
 
     /// The response to a prescribed value: displacement times relaxed modulus, or force over
@@ -250,8 +315,8 @@ impl Cutter {
         }
     }
 
-    /// Passes over a leg without dividing it.
-    pub fn go(&mut self, leg: &Leg) {
+    /// Passes over a leg.
+    fn go(&mut self, leg: &Leg) {
         let change = leg.to - self.value;
         for mode in &mut self.modes {
             let ratio = leg.duration / mode.time;
@@ -264,30 +329,6 @@ impl Cutter {
             mode.memory = mode.memory * (-ratio).exp() + change * kept;
         }
         self.value = leg.to;
-    }
-
-    /// Divides a leg into steps: the share of each step in its duration, powers of one half that
-    /// add up to 1. `None` if there are more than `most`.
-    pub fn cut(&mut self, leg: &Leg, most: usize) -> Option<Vec<f64>> {
-        let mut shares = Vec::new();
-        // Start and length of the parts still to be divided, as shares of the leg; the next one is
-        // last.
-        let mut open = vec![(0.0, 1.0)];
-        while let Some((begin, length)) = open.pop() {
-            if leg.duration > 0.0 && self.error(leg, begin, length) > self.tolerance {
-                let half = 0.5 * length;
-                open.push((begin + half, half));
-                open.push((begin, half));
-                // Each of these becomes at least one step.
-                if shares.len() + open.len() > most {
-                    return None;
-                }
-            } else {
-                shares.push(length);
-            }
-        }
-        self.go(leg);
-        Some(shares)
     }
 
     /// Relative error of one step over a part of a leg.
@@ -333,9 +374,8 @@ fn relaxation(solid: &SolidScene) -> Vec<Mode> {
 }
 
 /// Creep of the displacement under a constant load: one retardation time above each relaxation time
-/// and below the next, where `E_inf = sum E_k tau_k/(theta - tau_k)`.
-fn retardation(solid: &SolidScene) -> Vec<Mode> {
-    let relaxed = solid.contact_modulus;
+/// and below the next, where `E_inf = sum E_k tau_k/(theta - tau_k)`; `relaxed` stands for E_inf, Pa.
+fn retardation(solid: &SolidScene, relaxed: f64) -> Vec<Mode> {
     let mut branches: Vec<(f64, f64)> = Vec::new();
     for branch in &solid.relaxation {
         match branches.iter_mut().find(|(time, _)| *time == branch.time) {
@@ -409,7 +449,7 @@ mod tests {
     /// One branch: the retardation time is `tau E_0/E_inf`, and `1 - E_inf/E_0` creeps.
     #[test]
     fn one_branch_creeps_in_its_own_time() {
-        let modes = retardation(&solid(&[(0.5, 1.0), (0.4, 1.0)]));
+        let modes = retardation(&solid(&[(0.5, 1.0), (0.4, 1.0)]), 0.1);
         assert_eq!(modes.len(), 1);
         assert!((modes[0].time - 10.0).abs() < 1e-12, "{modes:?}");
         assert!((modes[0].share - 0.9).abs() < 1e-12, "{modes:?}");
@@ -419,7 +459,7 @@ mod tests {
     #[test]
     fn many_branches_leave_the_answer_at_once() {
         let many = solid(&[(0.3, 1.0), (0.2, 30.0), (0.4, 0.01), (5.0, 1.001)]);
-        let modes = retardation(&many);
+        let modes = retardation(&many, 0.1);
         let left = compliance(&modes, 0.0);
         assert!((left - 0.1 / 6.0).abs() < 1e-12, "{left}");
         assert!(modes.iter().all(|mode| mode.share > 0.0));

@@ -12,7 +12,7 @@ use super::control::Controller;
 use super::evaluation::Evaluation;
 use super::observer::Unreachable;
 use super::plan::Plan;
-use super::row::Column;
+use super::row::{Column, StepRow};
 use super::setup::Setup;
 use super::step::SolvedStep;
 use crate::backend::BackendError;
@@ -112,6 +112,11 @@ pub(crate) trait Hooks: Sync {
         _watch: &mut dyn FnMut(usize, f64) -> bool,
     ) -> Result<(), BackendError> {
         Ok(())
+    }
+
+    /// A warning of a finished step: what is so here, and the words for any step, which are said once.
+    fn warning_of_step(&self, _setup: &Setup, _row: &StepRow) -> Option<[String; 2]> {
+        None
     }
 
     // In the tables.

@@ -291,6 +291,9 @@ fn time(setup: &Setup, duration: f64, before: Option<&StepRow>) -> Option<f64> {
     Some(before + duration)
 }
 
+/// Residual of a state whose tension is compared with others, over the tolerance of pull-off.
+const ASKED: f64 = 0.01;
+
 /// Result of a search between two steps.
 #[derive(Default)]
 struct Found {
@@ -330,13 +333,18 @@ fn look_between(
         && pull_off::may_let_go(between.means.setup, between.to);
     if let Verdict::Perhaps { way, least } = verdict {
         let left = between.walker.carried()?;
+        let (setup, tolerance, first) =
+            (between.means.setup, between.means.tolerance, state.clone());
         let jumped = match confirm(&mut between, before, state, row, least)? {
             Confirmed::Jumped(ends) => {
-                if let (Some(ends), Some(spring)) = (ends, between.means.setup.spring())
+                if let (Some(ends), Some(spring)) = (ends, setup.spring())
                     && way == Jump::Off
                 {
-                    let step = before.step;
-                    found.pull_off = pull_off::find_on_spring(&mut between, step, spring, *ends)?;
+                    // As well as pull-off is asked for, and no better than the steps.
+                    let wanted = ASKED * setup.scene.loading.pull_off_tolerance;
+                    between.means.tolerance = between.means.tolerance.min(wanted).max(tolerance);
+                    found.pull_off =
+                        pull_off::find_on_spring(&mut between, (first, before), spring, *ends)?;
                 }
                 true
             }

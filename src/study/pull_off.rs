@@ -77,7 +77,7 @@ impl Tension {
     pub fn at_end(loading: &LoadingScene, end: &WalkEnd) -> Tension {
         let solved = end.rows.iter().take_while(|row| row.converged).count();
         let rows = &end.rows[..solved];
-        let ways = (!loading.control.is_load()).then(|| ways(rows, loading.control));
+        let ways = (!loading.control.is_load()).then(|| ways(rows, loading));
         let greatest = |way: Option<Way>| {
             let under_tension = rows
                 .iter()
@@ -114,7 +114,7 @@ impl Tension {
         let Tension::Passed { step, .. } = self else {
             return false;
         };
-        let places = rows.iter().map(|row| row.place(loading.control));
+        let places = rows.iter().map(|row| row.prescribed_place(loading));
         let places: Vec<f64> = places.take(step).flatten().collect();
         let still = STILL * span(&places);
         let here = places.last().copied().unwrap_or_default();
@@ -160,8 +160,11 @@ enum Way {
 }
 
 /// How a path goes on from each of its steps.
-fn ways(rows: &[StepRow], control: Control) -> Vec<Way> {
-    let places: Vec<Option<f64>> = rows.iter().map(|row| row.place(control)).collect();
+fn ways(rows: &[StepRow], loading: &LoadingScene) -> Vec<Way> {
+    let places: Vec<Option<f64>> = rows
+        .iter()
+        .map(|row| row.prescribed_place(loading))
+        .collect();
     let known: Vec<f64> = places.iter().copied().flatten().collect();
     let still = STILL * span(&known);
     // Whether a step has the surfaces further apart than another; `None` where both are at one place.
@@ -256,58 +259,171 @@ pub(super) fn find(
     }))
 }
 
-/// Narrows down the pull-off of a step that jumped off a spring (N/m), between the states next to the jump; `None` where that is
-/// no tension, and where the watch ended it.
+/// A state before the jump of a step.
+#[derive(Clone, Copy)]
+struct Known {
+    /// Where the far end is, as a share of the step.
+    share: f64,
+    /// The tension, N.
+    tension: f64,
+}
+
+impl Known {
+    /// How fast the tension grows from here to a later state, N over the whole step.
+    fn slope_to(self, later: Known) -> f64 {
+        (later.tension - self.tension) / (later.share - self.share)
+    }
+}
+
+/// A piece of a step between two neighbours of which one has the greatest known tension, or between that one and the jump.
+#[derive(Clone, Copy)]
+struct Neighbours {
+    /// The shares at its ends.
+    ends: [f64; 2],
+    /// The most that the tension may be between them, N.
+    most: f64,
+}
+
+/// The pieces before and behind the greatest known tension (at `greatest`), where the spring stretches by `stretch`, N, over the whole step,
+/// and the contact jumps at `jump`.
 ///
-/// Over a way of the far end the tension grows by what the spring stretches, if the contact gives way by nothing, and by less otherwise.
+/// Over a way of the far end the tension grows by what the spring stretches, if the contact gives way by nothing, and by less
+/// otherwise. Between two states it lies below the straight lines through their neighbours and them, as it bends one way.
+fn beside_greatest(
+    known: &[Known],
+    greatest: usize,
+    stretch: f64,
+    jump: f64,
+) -> [Option<Neighbours>; 2] {
+    let at = known[greatest];
+    let line =
+        |from: Known, slope: f64, share: f64| from.tension + slope * (share - from.share).abs();
+    let two_before = greatest.checked_sub(2).map(|index| known[index]);
+    let before = greatest.checked_sub(1).map(|index| known[index]);
+    let behind = known.get(greatest + 1).copied();
+    let rising = before.map(|before| {
+        let by_spring = line(before, stretch, at.share);
+        let by_earlier = two_before.map(|two| line(before, two.slope_to(before), at.share));
+        let by_later = behind.map(|behind| line(at, -at.slope_to(behind), before.share));
+        let bounds = [Some(by_spring), by_earlier, by_later]
+            .into_iter()
+            .flatten();
+        Neighbours {
+            ends: [before.share, at.share],
+            most: bounds.fold(f64::INFINITY, f64::min),
+        }
+    });
+    let end = behind.map_or(jump, |behind| behind.share);
+    let by_spring = line(at, stretch, end);
+    // The last way before a jump may be steep.
+    let by_earlier = before.filter(|_| behind.is_some());
+    let by_earlier = by_earlier.map(|before| line(at, before.slope_to(at), end));
+    let falling = Neighbours {
+        ends: [at.share, end],
+        most: by_earlier.map_or(by_spring, |most| most.min(by_spring)),
+    };
+    [rising, Some(falling)]
+}
+
+/// Narrows down the pull-off of a step that jumped off a spring (N/m), from the state before the step, its row and the states next to the
+/// jump: the greatest tension before the jump, at it or where the tension has begun to fall. `None` where it falls from the start of the step
+/// on, where there is no tension, and where the watch ended the search.
 pub(super) fn find_on_spring(
     between: &mut Between,
-    step: usize,
+    (first, row): (Carried, &StepRow),
     spring: f64,
     ends: Ends,
 ) -> Result<Option<PullOff>, BackendError> {
     let tolerance = between.means.setup.scene.loading.pull_off_tolerance;
     let Ends {
-        before: mut held,
+        before: (mut held, last),
         mut behind,
     } = ends;
-    let tension = |row: &StepRow| -row.force;
-    let stretched =
-        |between: &Between, from: f64, to: f64| spring * (between.value(from) - between.value(to));
-    let mut lower = tension(&held.1);
-    if tolerance == 0.0 || lower <= 0.0 || between.to >= between.from {
+    let stretch = spring * (between.from - between.to);
+    if tolerance == 0.0 || stretch <= 0.0 {
         return Ok(None);
     }
-    let mut more = stretched(between, held.0.share, behind.0);
+    let known = |share: f64, row: &StepRow| Known {
+        share,
+        tension: -row.force,
+    };
+    let mut states = vec![known(0.0, row)];
+    if held.share > 0.0 {
+        states.push(known(held.share, &last));
+    }
+    // The last state from which all later ones are reached.
+    let mut early = Place {
+        share: 0.0,
+        carried: first,
+    };
+    let mut last = last.approach;
     for _ in 0..MOST_TRIALS {
-        if more <= tolerance * tension(&held.1) {
-            break;
-        }
-        let share = 0.5 * (held.0.share + behind.0);
-        let tried = between.solve(&held.0, share)?;
+        let Some((greatest, upper, open)) = open_piece(&states, stretch, behind.0, tolerance)
+        else {
+            return Ok(None);
+        };
+        let Some([from, to]) = open else {
+            return Ok(Some(PullOff {
+                step: row.step,
+                lower: states[greatest].tension,
+                upper,
+            }));
+        };
+        let share = 0.5 * (from + to);
+        let start = if from >= held.share { &held } else { &early };
+        let tried = between.solve(start, share)?;
         if between.interrupted {
             return Ok(None);
         }
+        let distance = |to: Option<f64>| Some((tried.row.approach? - to?).abs());
         if !tried.row.converged {
             break;
         }
-        let apart = |row: &StepRow| Some((tried.row.approach? - row.approach?).abs());
-        match apart(&held.1) < apart(&behind.1) {
-            true => {
-                lower = lower.max(tension(&tried.row));
-                let place = Place {
-                    share,
-                    carried: tried.carried,
-                };
-                held = (place, tried.row);
+        if distance(last) >= distance(behind.1.approach) {
+            if share < held.share {
+                break;
             }
-            false => behind = (share, tried.row),
+            behind = (share, tried.row);
+            continue;
         }
-        more = stretched(between, held.0.share, behind.0);
+        let place = states.partition_point(|state| state.share < share);
+        let state = known(share, &tried.row);
+        let is_before =
+            state.share < states[greatest].share && state.tension <= states[greatest].tension;
+        states.insert(place, state);
+        let carried = tried.carried;
+        if share > held.share {
+            last = tried.row.approach;
+            held = Place { share, carried };
+        } else if is_before && share > early.share {
+            early = Place { share, carried };
+        }
     }
-    Ok(Some(PullOff {
-        step,
-        lower,
-        upper: lower.max(tension(&held.1) + more),
+    let found = open_piece(&states, stretch, behind.0, tolerance);
+    Ok(found.map(|(greatest, upper, _)| PullOff {
+        step: row.step,
+        lower: states[greatest].tension,
+        upper,
     }))
+}
+
+/// Where the greatest known tension is, the most that it may be, and the piece to be halved next, if that is not within the tolerance; `None`
+/// where the tension falls from the first state on, or there is none.
+fn open_piece(
+    states: &[Known],
+    stretch: f64,
+    jump: f64,
+    tolerance: f64,
+) -> Option<(usize, f64, Option<[f64; 2]>)> {
+    let tensions = states.iter().map(|state| state.tension);
+    let (greatest, lower) = tensions.enumerate().max_by(|a, b| a.1.total_cmp(&b.1))?;
+    if lower <= 0.0 || (greatest == 0 && states.len() > 1) {
+        return None;
+    }
+    let pieces = beside_greatest(states, greatest, stretch, jump);
+    let pieces = pieces.into_iter().flatten();
+    let widest = pieces.max_by(|a, b| a.most.total_cmp(&b.most))?;
+    let upper = lower.max(widest.most);
+    let is_open = upper - lower > tolerance * upper;
+    Some((greatest, upper, is_open.then_some(widest.ends)))
 }

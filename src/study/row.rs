@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use crate::scene::Control;
+use crate::scene::{Control, LoadingScene};
 
 /// Contact state of a step.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Deserialize)]
@@ -113,6 +113,12 @@ impl StepRow {
             Control::MeanGap => self.mean_gap.map(|gap| -gap),
             Control::Pressure | Control::Force => None,
         }
+    }
+
+    /// The same of what the path prescribes, which with a spring is its far end: the surfaces may stay where they are as it goes on.
+    pub(crate) fn prescribed_place(&self, loading: &LoadingScene) -> Option<f64> {
+        let stretched = loading.spring.map_or(0.0, |spring| self.force / spring);
+        Some(self.place(loading.control)? + stretched)
     }
 
     /// Energy that the solid has dissipated since the path began, J.

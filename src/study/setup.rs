@@ -12,7 +12,8 @@ use crate::backend::ranks::Ranks;
 use crate::law::Law;
 use crate::scene::{Boundary, Control, Scene};
 use crate::solver::Problem;
-use crate::surface::{MapOutline, Outline, Source, Surface, has_flats, statistics::Statistics};
+use crate::surface::statistics::Statistics;
+use crate::surface::{MapOutline, Outline, Source, Surface, depths_of_highest, has_flats};
 use crate::units::format_si;
 
 /// Everything that the steps of a path share.
@@ -61,6 +62,10 @@ impl Setup {
             source: Source::Heights,
             top: surface.top,
             has_flats: has_flats(heights, &share),
+            highest: match scene.adhesion {
+                Some(_) => depths_of_highest(heights, &share),
+                None => Vec::new(),
+            },
             map: surface
                 .adhesion_map
                 .as_deref()

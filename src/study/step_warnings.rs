@@ -22,7 +22,10 @@ pub fn step_warnings(setup: &Setup, step: &FinishedStep, said: &[String]) -> Vec
         guessed_jump(setup, step),
     ];
     let unsaid = |[_, words]: &[String; 2]| !said.iter().any(|text| text.ends_with(words));
-    let others = others.into_iter().flatten().filter(unsaid);
+    let effects = setup.effects.iter();
+    let of_effects = effects.filter_map(|effect| effect.warning_of_step(setup, step.row));
+    let others = others.into_iter().flatten().chain(of_effects);
+    let others = others.filter(unsaid);
     let edge = edge_warning(step, said).map(str::to_owned);
     edge.into_iter()
         .chain(others.map(|[here, words]| here + &words))

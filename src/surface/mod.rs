@@ -38,6 +38,7 @@ pub mod self_affine;
 pub mod shapes;
 pub mod spectrum;
 pub mod statistics;
+mod summit;
 mod top;
 
 pub use adhesion_map::MapError;
@@ -50,6 +51,7 @@ pub(crate) use formats::instrument_header;
 pub(crate) use outline::has_flats;
 #[doc(hidden)]
 pub use outline::{MapOutline, Outline, Source};
+pub(crate) use summit::depths_of_highest;
 
 use std::borrow::Cow;
 use std::sync::Arc;

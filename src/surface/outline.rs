@@ -9,6 +9,7 @@ use super::error::{PartError, SurfaceError};
 use super::shapes::{self, ApexPosition};
 use super::spectrum::SpectralMoments;
 use super::statistics::whole;
+use super::summit::depths_of_highest;
 use super::{Surface, Top, adhesion_map, check_grid, part_error, self_affine};
 use crate::backend::Share;
 use crate::grid::Grid;
@@ -49,6 +50,8 @@ pub struct Outline {
     pub top: Top,
     /// Whether the surface consists of flats, as of pillars and punches, so that no curvature is meant.
     pub has_flats: bool,
+    /// How far some of the highest points lie below the highest, m, ascending from 0; empty where there are no heights yet.
+    pub highest: Vec<f64>,
     /// Summary of the adhesion map; `None` without one.
     pub map: Option<MapOutline>,
     /// Warnings for the user, one sentence each, naming the part.
@@ -201,6 +204,7 @@ impl Outline {
             source,
             top: Top::from_parts(parts),
             has_flats: false,
+            highest: Vec::new(),
             map: match scene
                 .adhesion
                 .as_ref()
@@ -231,6 +235,7 @@ impl Outline {
             source: Source::Heights,
             top: surface.top,
             has_flats: has_flats(&surface.heights, &whole(&surface.grid)),
+            highest: depths_of_highest(&surface.heights, &whole(&surface.grid)),
             map: surface
                 .adhesion_map
                 .as_deref()

@@ -302,7 +302,10 @@ fn a_signal_while_a_shader_compiles_ends_the_run_at_once() {
     device();
     let folder = scene(ROUGH);
     let folder = folder.path();
+    // In few shaders, each of which software compiles slowly.
+    let few = ["--precision", "single", "--set", "grid.points=32"];
     let call = ["run", "scene.toml", "--backend", "gpu", "--out", "out"];
+    let call = [&call[..], &few].concat();
     let begin = |extra: &[&str], slow: &str| {
         command(folder, &[&call[..], extra].concat())
             .env("TABOR_TEST_GPU", slow)

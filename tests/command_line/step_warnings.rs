@@ -1,7 +1,8 @@
 //! Pressures that do not add up to the prescribed load, contacts too wide for a half-space or too narrow for their load, pull-off that
 //! is passed over, and jumps that are guesses.
 
-use std::f64::consts::PI;
+use std::f64::consts::{PI, TAU};
+use std::fs;
 
 use tabor::units::format_si;
 
@@ -358,6 +359,78 @@ output = { images = [] }
     assert_eq!([&last["approach"], &last["mean_gap"]], ["", ""]);
 }
 
+/// A particle on a map is far sharper than the summits that the curvature of the map speaks of: on few points its pull-off is half as high again.
+fn a_particle_on_few_points_is_warned_of() {
+    let folder = scene(
+        r#"
+grid = { size = "10 um" }
+solid = { contact_modulus = "100 MPa" }
+surface = [{ kind = "file", path = "map.txt", unit = "nm" }]
+adhesion = { law = "maugis-dugdale", work_of_adhesion = "20 mJ/m^2", range = "20 nm" }
+loading = { control = "force", path = ["0.1 uN", "0 N"] }
+output = { images = [] }
+"#,
+    );
+    // A bump with a radius of 133 nm, and without it: waves with one of 5 um.
+    let map = |bump: f64| -> String {
+        let height = |x: f64, y: f64| {
+            let waves = 15.0
+                * ((TAU * 2.0 * x).cos()
+                    + (TAU * 3.0 * y).sin()
+                    + (TAU * (3.0 * x - 2.0 * y)).cos());
+            let away = ((x - 0.402).powi(2) + (y - 0.603).powi(2)) / (2.0 * 0.02_f64.powi(2));
+            waves + bump * (-away).exp()
+        };
+        let row = |y: usize| -> String {
+            let points =
+                (0..128).map(|x| format!("{:.4}", height(x as f64 / 128.0, y as f64 / 128.0)));
+            points.collect::<Vec<String>>().join(" ") + "\n"
+        };
+        (0..128).map(row).collect()
+    };
+    for (bump, stands_out) in [(300.0, true), (0.0, false)] {
+        let out = format!("out{bump}");
+        fs::write(folder.path().join("map.txt"), map(bump)).expect("written");
+        for call in [
+            &["check", "scene.toml"][..],
+            &["run", "scene.toml", "--quiet", "--out", &out],
+        ] {
+            let output = tabor(folder.path(), call);
+            assert_eq!(status(&output), 0, "{}", errors(&output));
+            let said = errors(&output);
+            assert_eq!(
+                said.contains("the highest point stands out"),
+                stands_out,
+                "{call:?}: {said}"
+            );
+        }
+    }
+}
+
+/// A film that is pressed together by most of its thickness is beyond linear elasticity.
+fn a_layer_pressed_deep_is_warned_of_once() {
+    let folder = scene(
+        r#"
+grid = { points = 32, size = "6 um" }
+solid = { contact_modulus = "10 MPa", poisson_ratio = 0.3, thickness = "50 nm" }
+surface = [{ kind = "sphere", radius = "50 um" }]
+loading = { control = "approach", path = ["5 nm", "20 nm", "30 nm"] }
+output = { images = [] }
+"#,
+    );
+    let output = tabor(
+        folder.path(),
+        &["run", "scene.toml", "--quiet", "--out", "out"],
+    );
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let said = errors(&output);
+    assert!(
+        said.contains("step 2: the layer is pressed together by 20 nm, 0.40 of its thickness"),
+        "{said}"
+    );
+    assert_eq!(said.matches("the layer is pressed").count(), 1, "{said}");
+}
+
 /// Crests on few points: as one more of them touches, its attraction ends, and the net load jumps past the prescribed one: by 2 % at least
 /// on one grid, and on a finer one from 3 % below to 0.1 % above it, where the nearer side is the answer.
 fn a_net_load_that_jumps_past_the_prescribed_one_is_warned_of() {
@@ -644,6 +717,8 @@ tests![
     a_treatment_that_does_not_hold_is_warned_of,
     a_contact_that_lets_go_while_its_tension_grows_is_warned_of,
     a_position_beyond_full_contact_has_no_values,
+    a_particle_on_few_points_is_warned_of,
+    a_layer_pressed_deep_is_warned_of_once,
     a_spring_holds_the_position_of_its_far_end,
     a_load_is_not_lost_in_the_tolerance_of_a_strong_law,
     a_contact_that_is_wide_for_its_sphere_is_warned_of_once,

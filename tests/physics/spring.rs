@@ -180,7 +180,59 @@ fn long_steps_of_a_spring_bracket_its_pull_off() {
     }
 }
 
+/// On a stiffer spring the tension has begun to fall before the contact jumps: the greatest lies between the step and the states next to
+/// the jump.
+fn the_greatest_tension_before_a_jump_is_bracketed() {
+    let (work, range, side) = (1e-4, 5e-3, 0.8);
+    let scale = 2.0 * PI * work;
+    let contact = format!(
+        "[grid]\npoints = 48\nsize = {side}\nboundary = \"free\"\n[solid]\ncontact_modulus = 1.0\n[[surface]]\nkind = \"sphere\"\nradius = 1.0\n[adhesion]\nlaw = \"lennard-jones\"\nwork_of_adhesion = {work:e}\nrange = {range:e}\n[loading]\n"
+    );
+    let forces: Vec<f64> = (0..40)
+        .map(|i| scale * (0.2 - 0.04 * f64::from(i)))
+        .collect();
+    let by_force = solve_table(&format!(
+        "{contact}control = \"force\"\npull_off_tolerance = 1e-3\npath = {forces:?}\n"
+    ));
+    let by_force = by_force.end.pull_off.expect("it lets go");
+    let mut bracketed = 0;
+    for (stiffness, steps) in [
+        (0.04, 6),
+        (0.04, 7),
+        (0.04, 8),
+        (0.06, 6),
+        (0.06, 7),
+        (0.06, 9),
+    ] {
+        let span = 4.0 * range + 1.4 * scale / stiffness;
+        let far_ends: Vec<f64> = (0..=steps)
+            .map(|i| 2.0 * range - span * f64::from(i) / f64::from(steps))
+            .collect();
+        let end = solve_table(&format!(
+            "{contact}control = \"approach\"\nspring = {stiffness:e}\npath = {far_ends:?}\n"
+        ))
+        .end;
+        println!(
+            "k {stiffness}, {steps} steps: {:?}, by force {by_force:?}",
+            end.pull_off
+        );
+        // Where a step itself has more than what is behind it, there is no bracket.
+        let Some(found) = end.pull_off else {
+            continue;
+        };
+        bracketed += 1;
+        assert!(found.upper - found.lower <= 0.01 * found.upper, "{found:?}");
+        let error = 2e-3 * by_force.upper;
+        assert!(
+            found.lower < by_force.upper + error && found.upper > by_force.lower - error,
+            "k {stiffness}, {steps} steps: {found:?} {by_force:?}"
+        );
+    }
+    assert!(bracketed >= 2, "{bracketed}");
+}
+
 tests![
+    the_greatest_tension_before_a_jump_is_bracketed,
     snaps_where_the_line_touches_the_curve,
     a_soft_spring_holds_as_much_as_a_prescribed_force,
     long_steps_of_a_spring_bracket_its_pull_off,

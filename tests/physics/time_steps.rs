@@ -190,7 +190,70 @@ fn ramps_keep_the_asked_error() {
     }
 }
 
+/// A spring neither holds a position nor a load: the contact answers in times between those of relaxation, 0.1 s, and of creep, 100 s. Over a
+/// fast ramp and a long hold the steps found are as good as they should be, beside equal ones.
+fn a_spring_has_its_own_times() {
+    let scene = |ramp: &str, hold: &str| {
+        solve_table(&format!(
+            r#"
+            [grid]
+            points = 32
+            size = 1.5e-6
+            boundary = "free"
+            [solid]
+            contact_modulus = 1e5
+            [[solid.relaxation]]
+            modulus = 1e8
+            time = 0.1
+            [[surface]]
+            kind = "sphere"
+            radius = 2e-6
+            [loading]
+            control = "approach"
+            spring = 50.0
+            time_tolerance = 1e-2
+            start = 0.0
+            [[loading.ramp]]
+            to = 8e-8
+            duration = 0.01
+            steps = {ramp}
+            [[loading.ramp]]
+            hold = 1.0
+            steps = {hold}
+            "#
+        ))
+    };
+    let (found, fine) = (scene("\"auto\"", "\"auto\""), scene("16", "512"));
+    let at = |solved: &Solved| -> Vec<[f64; 2]> {
+        solved
+            .rows()
+            .filter_map(|row| Some([row.time?, row.force]))
+            .collect()
+    };
+    let (found, fine) = (at(&found), at(&fine));
+    let greatest = fine
+        .iter()
+        .fold(0.0, |most: f64, [_, force]| most.max(*force));
+    let mut compared = 0;
+    for [time, force] in &found {
+        let same = fine.iter().find(|[other, _]| (other - time).abs() < 1e-9);
+        let Some([_, expected]) = same.filter(|_| *time > 0.01) else {
+            continue;
+        };
+        let error = (force - expected).abs() / greatest;
+        assert!(error < 1e-2, "at {time} s: {force:e} {expected:e}");
+        compared += 1;
+    }
+    println!(
+        "{} steps for {}, {compared} times compared",
+        found.len(),
+        fine.len()
+    );
+    assert!(compared > 10, "{compared}");
+}
+
 tests![
+    a_spring_has_its_own_times,
     creep_keeps_the_asked_error_with_fewer_steps,
     ramps_keep_the_asked_error,
 ];
