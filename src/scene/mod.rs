@@ -61,7 +61,19 @@ use reader::{Log, Reader};
 /// Longest scene file: a path of a million steps has about 20 bytes a step.
 const MOST_BYTES: u64 = 32 << 20;
 
+impl LoadingScene {
+    /// How much further than the body what is prescribed is moved under a force (N), m: what a spring between the two is stretched by.
+    pub(crate) fn stretched(&self, force: f64) -> f64 {
+        self.spring.map_or(0.0, |spring| force / spring)
+    }
+}
+
 impl Scene {
+    /// Whether its surfaces attract each other.
+    pub(crate) fn attracts(&self) -> bool {
+        self.adhesion.is_some()
+    }
+
     /// The files that it reads: height maps, and the map of its adhesion.
     #[cfg(feature = "cli")]
     pub(crate) fn files(&self) -> impl Iterator<Item = &Path> {

@@ -117,8 +117,7 @@ impl StepRow {
 
     /// The same of what the path prescribes, which with a spring is its far end: the surfaces may stay where they are as it goes on.
     pub(crate) fn prescribed_place(&self, loading: &LoadingScene) -> Option<f64> {
-        let stretched = loading.spring.map_or(0.0, |spring| self.force / spring);
-        Some(self.place(loading.control)? + stretched)
+        Some(self.place(loading.control)? + loading.stretched(self.force))
     }
 
     /// Energy that the solid has dissipated since the path began, J.

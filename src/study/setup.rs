@@ -62,9 +62,9 @@ impl Setup {
             source: Source::Heights,
             top: surface.top,
             has_flats: has_flats(heights, &share),
-            highest: match scene.adhesion {
-                Some(_) => depths_of_highest(heights, &share),
-                None => Vec::new(),
+            highest: match scene.attracts() {
+                true => depths_of_highest(heights, &share),
+                false => Vec::new(),
             },
             map: surface
                 .adhesion_map
