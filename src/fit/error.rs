@@ -247,12 +247,12 @@ pub enum FitError {
         path: String,
     },
     /// The greatest force lies on the far side.
-    #[error(
-        "{path}: the force grows as the surfaces separate; approach must be positive closer (turn its sign, or that of the force)"
-    )]
+    #[error("{path}: {remedy}")]
     WrongWay {
         /// The file.
         path: String,
+        /// What is reversed, and what to turn.
+        remedy: &'static str,
     },
     /// No model fits the data.
     #[error("no model could be fitted to {path}: check units, signs and the tip")]

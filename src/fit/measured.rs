@@ -45,6 +45,21 @@ impl ReversedSigns {
             force: true,
         },
     ];
+
+    /// What a curve with these signs reversed looks like, and what is to be done.
+    pub(super) fn remedy(self) -> &'static str {
+        match (self.approach, self.force) {
+            (true, false) => {
+                "the force grows as the surfaces separate; approach must be positive closer: turn its sign"
+            }
+            (false, _) => {
+                "the tension grows as the surfaces close; force must be positive in compression: turn its sign"
+            }
+            (true, true) => {
+                "approach and force are both reversed; approach must be positive closer, and force in compression: turn both signs"
+            }
+        }
+    }
 }
 
 /// A curve prepared for fitting.

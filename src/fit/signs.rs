@@ -64,29 +64,29 @@ pub(super) fn check_signs(
         .iter()
         .filter(|model| **model != Model::MaugisDugdale);
     let squares = squares_about_mean(&moving.samples);
-    for reversed in ReversedSigns::ALL {
+    let described = ReversedSigns::ALL.into_iter().filter_map(|reversed| {
         let other = moving.with_reversed(reversed);
         let fitted = simple.clone().filter_map(|model| fit_model(&other, *model));
-        let Some(fit) = least_of(&fitted.collect::<Vec<_>>()) else {
-            continue;
-        };
+        let fit = least_of(&fitted.collect::<Vec<_>>())?;
         let is_far_better = best.sum_of_squares > UNEXPLAINED * squares
             && fit.sum_of_squares < FAR_BETTER * best.sum_of_squares;
-        if fit.aic < best.aic - DECISIVE_AIC
+        let is_described = fit.aic < best.aic - DECISIVE_AIC
             && (is_far_better || !misses(&other, &fit))
-            && !never_presses(&other, &fit)
-        {
-            let path = name(path);
-            return Err(if aic_of_baseline(&moving) - fit.aic < CONTACT_AIC {
-                FitError::NoContact { path }
-            } else if pressed {
-                FitError::WrongWay { path }
-            } else {
-                FitError::NoCompression { path }
-            });
-        }
-    }
-    Ok(())
+            && !never_presses(&other, &fit);
+        is_described.then_some((reversed, fit.aic))
+    });
+    let Some((reversed, aic)) = described.min_by(|a, b| a.1.total_cmp(&b.1)) else {
+        return Ok(());
+    };
+    let path = name(path);
+    Err(if aic_of_baseline(&moving) - aic < CONTACT_AIC {
+        FitError::NoContact { path }
+    } else if pressed {
+        let remedy = reversed.remedy();
+        FitError::WrongWay { path, remedy }
+    } else {
+        FitError::NoCompression { path }
+    })
 }
 
 /// Whether the tension of a curve is still the greatest where it ends closest, without compression: no contact, but the reversal of a

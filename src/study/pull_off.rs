@@ -427,3 +427,66 @@ fn open_piece(
     let is_open = upper - lower > tolerance * upper;
     Some((greatest, upper, is_open.then_some(widest.ends)))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TOLERANCE: f64 = 1e-3;
+
+    /// States at these shares of a step, of a tension that has its maximum 1 at 0.6.
+    fn states(shares: &[f64]) -> Vec<Known> {
+        let tension = |share: &f64| 1.0 - (share - 0.6).powi(2);
+        let known = |share: &f64| Known {
+            share: *share,
+            tension: tension(share),
+        };
+        shares.iter().map(known).collect()
+    }
+
+    /// The spring adds at most 1.5 over the step, which is more than the tension ever grows by; the contact jumps at 0.9.
+    fn searched(shares: &[f64]) -> Option<(usize, f64, Option<[f64; 2]>)> {
+        open_piece(&states(shares), 1.5, 0.9, TOLERANCE)
+    }
+
+    /// Halving the pieces that are asked for comes to the maximum in a few trials, and the bound never excludes it.
+    #[test]
+    fn halving_brackets_a_maximum_that_was_passed() {
+        let mut shares = vec![0.0, 0.8];
+        for trial in 0.. {
+            let (greatest, upper, open) = searched(&shares).expect("it rises first");
+            let lower = states(&shares)[greatest].tension;
+            assert!(lower <= 1.0 && upper >= 1.0, "{shares:?}: {lower} {upper}");
+            let Some([from, to]) = open else {
+                assert!(upper - lower <= TOLERANCE * upper);
+                break;
+            };
+            assert!(trial < 12, "{shares:?}");
+            shares.push(0.5 * (from + to));
+            shares.sort_by(f64::total_cmp);
+        }
+    }
+
+    /// Before a jump the tension may still grow, by what the spring stretches.
+    #[test]
+    fn the_way_to_the_jump_counts_with_the_whole_spring() {
+        let states = &states(&[0.4, 0.45, 0.5]);
+        let (greatest, upper, open) = open_piece(states, 1.5, 0.52, TOLERANCE).expect("it rises");
+        assert_eq!((greatest, open), (2, Some([0.5, 0.52])));
+        assert!(
+            (upper - (states[2].tension + 1.5 * 0.02)).abs() < 1e-12,
+            "{upper}"
+        );
+    }
+
+    /// Behind the greatest tension of a step nothing is bracketed: it may lie before the step.
+    #[test]
+    fn a_tension_that_falls_from_the_step_on_has_no_bracket() {
+        assert!(searched(&[0.7, 0.8]).is_none());
+        let compressed = Known {
+            share: 0.0,
+            tension: -1.0,
+        };
+        assert!(open_piece(&[compressed], 1.5, 0.9, TOLERANCE).is_none());
+    }
+}
