@@ -326,8 +326,8 @@ fn beside_greatest(
 }
 
 /// Narrows down the pull-off of a step that jumped off a spring (N/m), from the state before the step, its row and the states next to the
-/// jump: the greatest tension before the jump, at it or where the tension has begun to fall. `None` where it falls from the start of the step
-/// on, where there is no tension, and where the watch ended the search.
+/// jump: the greatest tension before the jump, whether the tension still grows there or already falls. `None` if the start of the step has
+/// the greatest tension, if no state is under tension, or if the watch ended the search.
 pub(super) fn find_on_spring(
     between: &mut Between,
     (first, row): (Carried, &StepRow),
@@ -358,16 +358,10 @@ pub(super) fn find_on_spring(
     };
     let mut last = last.approach;
     for _ in 0..MOST_TRIALS {
-        let Some((greatest, upper, open)) = open_piece(&states, stretch, behind.0, tolerance)
+        let Some((greatest, _, Some([from, to]))) =
+            open_piece(&states, stretch, behind.0, tolerance)
         else {
-            return Ok(None);
-        };
-        let Some([from, to]) = open else {
-            return Ok(Some(PullOff {
-                step: row.step,
-                lower: states[greatest].tension,
-                upper,
-            }));
+            break;
         };
         let share = 0.5 * (from + to);
         let start = if from >= held.share { &held } else { &early };
@@ -407,8 +401,8 @@ pub(super) fn find_on_spring(
     }))
 }
 
-/// Where the greatest known tension is, the most that it may be, and the piece to be halved next, if that is not within the tolerance; `None`
-/// where the tension falls from the first state on, or there is none.
+/// The index of the greatest known tension, an upper bound of the tension, and the piece to be halved next if the two differ by more than
+/// the tolerance. `None` if the first of several states has the greatest tension, or if no state is under tension.
 fn open_piece(
     states: &[Known],
     stretch: f64,
@@ -479,9 +473,9 @@ mod tests {
         );
     }
 
-    /// Behind the greatest tension of a step nothing is bracketed: it may lie before the step.
+    /// If the start of a step has the greatest tension, the maximum may lie before the step.
     #[test]
-    fn a_tension_that_falls_from_the_step_on_has_no_bracket() {
+    fn a_tension_that_falls_during_the_whole_step_has_no_bracket() {
         assert!(searched(&[0.7, 0.8]).is_none());
         let compressed = Known {
             share: 0.0,

@@ -359,6 +359,41 @@ output = { images = [] }
     assert_eq!([&last["approach"], &last["mean_gap"]], ["", ""]);
 }
 
+/// In full contact the surfaces stay where they are while the far end of a spring moves: the path does not turn back there, and the tension
+/// that it then reaches is not the end of what it was pressed to.
+fn a_path_on_a_spring_in_full_contact_does_not_turn_back() {
+    let folder = scene(
+        r#"
+grid = { points = 64, size = "1 um" }
+solid = { contact_modulus = "50 MPa" }
+surface = [{ kind = "self-affine", hurst = 0.8, rms_height = "8 nm", longest = "1 um", rolloff = "0.5 um", shortest = "125 nm", seed = 2 }]
+adhesion = { law = "exponential", work_of_adhesion = "50 mJ/m^2", range = "4 nm" }
+loading = { control = "approach", spring = 150, start = 5.3333333333333334e-08, ramp = [{ to = -9.1513671875e-08, steps = 15 }] }
+output = { images = [] }
+"#,
+    );
+    let output = tabor(
+        folder.path(),
+        &["run", "scene.toml", "--quiet", "--out", "out"],
+    );
+    assert_eq!(status(&output), 0, "{}", errors(&output));
+    let rows = table(&folder.path().join("out/curve.csv"));
+    let closed = rows
+        .iter()
+        .take_while(|row| number(row, "contact_area_fraction") == Some(1.0));
+    let forces: Vec<Option<f64>> = closed.map(|row| number(row, "force")).collect();
+    assert!(
+        forces.len() > 3 && forces.iter().any(|force| *force < Some(0.0)),
+        "{forces:?}"
+    );
+    let said = errors(&output);
+    assert!(!said.contains("turns back"), "{said}");
+    assert!(
+        said.contains("let go in the next: its pull-off may be far greater"),
+        "{said}"
+    );
+}
+
 /// A particle on a map is far sharper than the summits that the curvature of the map speaks of: on few points its pull-off is half as high again.
 fn a_particle_on_few_points_is_warned_of() {
     let folder = scene(
@@ -717,6 +752,7 @@ tests![
     a_treatment_that_does_not_hold_is_warned_of,
     a_contact_that_lets_go_while_its_tension_grows_is_warned_of,
     a_position_beyond_full_contact_has_no_values,
+    a_path_on_a_spring_in_full_contact_does_not_turn_back,
     a_particle_on_few_points_is_warned_of,
     a_layer_pressed_deep_is_warned_of_once,
     a_spring_holds_the_position_of_its_far_end,
