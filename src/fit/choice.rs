@@ -18,7 +18,7 @@ use super::model::{Model, Parameters};
 use super::profile::ProfilePoint;
 use super::relaxation::Relaxation;
 use super::signs::check_signs;
-use super::slope::{self, BaselineSlope};
+use super::slope::{BaselineSlope, Tilt};
 use super::warnings::{UNCERTAIN, ZERO_POINTS, add_warnings, left_out, misses, mixed_rows};
 use crate::theory::Law;
 use crate::theory::tabor_map::{
@@ -118,9 +118,9 @@ pub fn fit_curve(
     };
     // The slope is a number of each model; taking out about that of the data lets all that looks at the data see a level
     // baseline.
-    let (samples, first) = slope::about_level(curve, indenter, freedom);
-    let mut measured = Measured::new(samples, indenter, freedom);
+    let mut tilt = Tilt::of_curve(curve, indenter, freedom);
     let no_fit = || FitError::NoFit { path: name(path) };
+    let mut measured = tilt.measured();
     let mut fits: Vec<ModelFit> = indenter
         .models()
         .iter()
@@ -147,7 +147,7 @@ pub fn fit_curve(
                 points: free_points(&fits[chosen]),
             });
         }
-        Some(slope::level(&mut measured, &mut fits, chosen, first))
+        Some(tilt.level(&mut measured, &mut fits, chosen))
     } else {
         None
     };

@@ -208,8 +208,15 @@ impl Search<'_> {
     /// Forces of a tip that interacts, and the numbers, which have the forces of a free one.
     fn interacting(&self, values: &DVector<f64>) -> Option<(Vec<f64>, Parameters)> {
         let parameters = self.parameters(values);
-        let forces = self.tip.forces(&parameters, &self.measured.approaches);
-        let forces = forces.ok()?;
+        let approaches = &self.measured.approaches;
+        let forces = if let Some(beam) = &self.measured.beam {
+            let contact = self.tip.contact(&parameters, approaches).ok()?;
+            let contact = |approach: f64| contact(approach).unwrap_or((f64::NAN, f64::NAN));
+            let baseline = (parameters.force_offset, parameters.baseline_slope);
+            beam.forces(contact, baseline, approaches, self.measured.approach_span)
+        } else {
+            self.tip.forces(&parameters, approaches).ok()?
+        };
         let finite = forces.iter().all(|force| force.is_finite());
         finite.then_some((forces, parameters))
     }
@@ -249,7 +256,7 @@ impl Problem for Search<'_> {
             let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
             // Gain from treating a point as free.
             let gain = |i: usize| {
-                let free = interacting.1.baseline(samples[i].approach);
+                let free = interacting.1.baseline(self.measured.place(i));
                 cost(i, interacting.0[i]) - cost(i, free)
             };
             let mut order: Vec<usize> = segment.points.clone().collect();
@@ -287,7 +294,7 @@ impl Search<'_> {
             let force = if choice[i] {
                 interacting[i]
             } else {
-                parameters.baseline(samples[i].approach)
+                parameters.baseline(self.measured.place(i))
             };
             self.residual(&samples[i], force)
         });

@@ -1,5 +1,6 @@
 //! A curve prepared for fitting.
 
+use super::beam::Beam;
 use super::curve_file::Sample;
 use super::indenter::Indenter;
 use super::segments::{Segment, segments};
@@ -81,6 +82,8 @@ pub struct Measured {
     pub(super) approach_span: f64,
     /// Mean approach, m.
     pub(super) middle: f64,
+    /// The cantilever, if the base of one is at known positions and the slope of the baseline is fitted.
+    pub(super) beam: Option<Beam>,
 }
 
 impl Measured {
@@ -104,8 +107,16 @@ impl Measured {
             approach_span: span(|sample| sample.approach),
             middle: samples.iter().map(|sample| sample.approach).sum::<f64>()
                 / samples.len().max(1) as f64,
+            beam: None,
             samples,
         }
+    }
+
+    /// Where the slope of the baseline acts on a point, m.
+    pub(super) fn place(&self, at: usize) -> f64 {
+        let approach = self.approaches[at];
+        let beam = self.beam.as_ref();
+        beam.map_or(approach, |beam| beam.place(at, approach))
     }
 
     /// The greatest approach, m.
@@ -118,7 +129,7 @@ impl Measured {
     pub(super) fn without_holds(&self) -> Measured {
         let points = self.approaches.len();
         let band = HOLD_BAND * self.approach_span;
-        let mut samples = Vec::with_capacity(points);
+        let mut moving = Vec::with_capacity(points);
         let mut from = 0;
         while from < points {
             let (mut low, mut high) = (self.approaches[from], self.approaches[from]);
@@ -128,11 +139,15 @@ impl Measured {
             };
             let count = self.approaches[from..].iter().take_while(stays).count();
             if count < LEAST_HELD || (count as f64) < HOLD_SHARE * points as f64 {
-                samples.extend_from_slice(&self.samples[from..from + count]);
+                moving.extend(from..from + count);
             }
             from += count;
         }
-        Measured::new(samples, self.indenter, self.freedom)
+        let samples = moving.iter().map(|at| self.samples[*at]).collect();
+        Measured {
+            beam: self.beam.as_ref().map(|beam| beam.of_points(&moving)),
+            ..Measured::new(samples, self.indenter, self.freedom)
+        }
     }
 
     /// The same curve with signs reversed.

@@ -11,6 +11,7 @@
 #[doc(hidden)]
 pub mod advice;
 mod akaike;
+mod beam;
 mod calibration;
 mod choice;
 mod columns;

@@ -116,6 +116,29 @@ impl ReducedForce {
             ReducedForce::MaugisDugdale(table) => table.force(approach),
         })
     }
+
+    /// Force and its derivative at an approach.
+    fn with_stiffness(&self, approach: f64) -> Result<(f64, f64), TheoryError> {
+        let hertz = 1.5 * approach.max(0.0).sqrt();
+        Ok(match self {
+            ReducedForce::Hertz | ReducedForce::Dmt => (self.at(approach)?, hertz),
+            ReducedForce::Jkr => {
+                let least = jkr::reduced_approach(jkr::grip());
+                let radius = jkr::reduced_radius_at_approach(approach.max(least))?;
+                let stiffness = if approach > least {
+                    jkr::reduced_stiffness(radius)
+                } else {
+                    0.0
+                };
+                (jkr::reduced_force(radius), stiffness)
+            }
+            ReducedForce::Cone | ReducedForce::MaugisDugdale(_) => {
+                let force = self.at(approach)?;
+                let step = DIFFERENCE * (1.0 + approach.abs());
+                (force, (self.at(approach + step)? - force) / step)
+            }
+        })
+    }
 }
 
 /// A model of an indenter, with its most recent tables.
@@ -128,6 +151,8 @@ pub struct IndenterModel {
     tables: RefCell<Vec<(f64, f64, Rc<MaugisCurve>)>>,
 }
 
+/// Relative step of the derivative of a force by the approach.
+const DIFFERENCE: f64 = 1e-7;
 /// Number of stored tables: the state, and two near it for a derivative.
 const TABLES: usize = 4;
 
@@ -150,33 +175,69 @@ impl IndenterModel {
         parameters: &Parameters,
         approaches: &[f64],
     ) -> Result<Vec<f64>, TheoryError> {
-        let Parameters {
-            contact_modulus,
-            work_of_adhesion,
-            maugis_parameter,
-            approach_offset,
-            ..
-        } = *parameters;
         let baseline = |approach: f64| parameters.baseline(approach);
+        let approach_offset = parameters.approach_offset;
         if self.model == Model::Hertz {
-            let stiffness = contact_modulus * self.indenter.stiffness();
-            let power = self.indenter.power();
+            let (stiffness, power) = self.hertz(parameters);
             let force =
                 |approach: f64| stiffness * (approach - approach_offset).max(0.0).powf(power);
             let forces = approaches.iter().map(|at| baseline(*at) + force(*at));
             return Ok(forces.collect());
         }
-        let (force_unit, approach_unit) = self.indenter.units(contact_modulus, work_of_adhesion);
-        let deepest = approaches.iter().fold(0.0_f64, |most, approach| {
-            most.max((approach - approach_offset) / approach_unit)
-        });
-        let reduced = self.reduced(maugis_parameter, deepest)?;
+        let (reduced, force_unit, approach_unit) = self.scaled(parameters, approaches)?;
         let force = |approach: f64| {
             let reduced = reduced.at((approach - approach_offset) / approach_unit)?;
             Ok(force_unit * reduced)
         };
         let forces = approaches.iter().map(|at| Ok(baseline(*at) + force(*at)?));
         forces.collect()
+    }
+
+    /// Force of the contact alone, N, and its stiffness, N/m, at an approach (m, as measured) as far as the deepest of `approaches`.
+    pub(super) fn contact(
+        &self,
+        parameters: &Parameters,
+        approaches: &[f64],
+    ) -> Result<impl Fn(f64) -> Result<(f64, f64), TheoryError> + use<>, TheoryError> {
+        let approach_offset = parameters.approach_offset;
+        let bare = (self.model == Model::Hertz).then(|| self.hertz(parameters));
+        let (reduced, force_unit, approach_unit) = if bare.is_some() {
+            (ReducedForce::Hertz, 1.0, 1.0)
+        } else {
+            self.scaled(parameters, approaches)?
+        };
+        Ok(move |approach: f64| {
+            let from_touch = approach - approach_offset;
+            if let Some((stiffness, power)) = bare {
+                let depth = from_touch.max(0.0);
+                let rising = stiffness * depth.powf(power - 1.0);
+                return Ok((rising * depth, power * rising));
+            }
+            let (force, stiffness) = reduced.with_stiffness(from_touch / approach_unit)?;
+            Ok((force_unit * force, force_unit / approach_unit * stiffness))
+        })
+    }
+
+    /// Force without adhesion over the power of the depth, and that power.
+    fn hertz(&self, parameters: &Parameters) -> (f64, f64) {
+        let stiffness = parameters.contact_modulus * self.indenter.stiffness();
+        (stiffness, self.indenter.power())
+    }
+
+    /// Force by approach of an adhesive model in the units of the indenter, and those of force, N, and approach, m.
+    fn scaled(
+        &self,
+        parameters: &Parameters,
+        approaches: &[f64],
+    ) -> Result<(ReducedForce, f64, f64), TheoryError> {
+        let (force_unit, approach_unit) = self
+            .indenter
+            .units(parameters.contact_modulus, parameters.work_of_adhesion);
+        let deepest = approaches.iter().fold(0.0_f64, |most, approach| {
+            most.max((approach - parameters.approach_offset) / approach_unit)
+        });
+        let reduced = self.reduced(parameters.maugis_parameter, deepest)?;
+        Ok((reduced, force_unit, approach_unit))
     }
 
     /// Force by approach in the units of the indenter, up to an approach. Without adhesion a cone is not reduced.

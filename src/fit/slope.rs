@@ -6,6 +6,7 @@
 
 use std::path::Path;
 
+use super::beam::{Beam, SlopeOf};
 use super::choice::{FitResult, fit_curve};
 use super::curve_file::{ForceCurve, Sample};
 use super::error::FitError;
@@ -20,8 +21,6 @@ const FAR: [f64; 4] = [0.05, 0.1, 0.3, 0.6];
 const LEAST_POINTS: usize = 5;
 /// Models that are fitted from each start: without adhesion, and with it.
 const TRIED: [Model; 2] = [Model::Hertz, Model::Jkr];
-/// Times that the slope is found of a curve of positions, whose approaches change with it.
-const ROUNDS: usize = 3;
 
 /// Slope of the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,79 +51,186 @@ pub fn fit_with_slope(
     fit_curve(curve, path, indenter, freedom)
 }
 
-/// The points with about the slope of their baseline taken out, and that slope, N/m; 0 if it is known to be level.
+/// What is taken out of a curve so that its baseline is level.
 ///
 /// Of a curve of positions the slope is by position: a part of the deflection that follows the position, as light that interferes or
 /// drift makes it, is in the approach too, and in contact the position moves farther than the probe.
-pub(super) fn about_level(
-    curve: &ForceCurve,
+pub(super) struct Tilt<'a> {
+    curve: &'a ForceCurve,
     indenter: Indenter,
     freedom: Freedom,
-) -> (Vec<Sample>, f64) {
-    if !freedom.baseline_slope {
-        return (curve.samples.clone(), 0.0);
-    }
-    let (slope, touch, misfit) = first(&curve.samples, indenter, freedom);
-    let Some(spring) = curve.spring.filter(|_| curve.has_positions) else {
-        return (without(&curve.samples, slope), slope);
-    };
-    let by_position = |slope: f64| slope / (1.0 + slope / spring);
-    // The approach of first touch stays as measured.
-    let touch = touch.approach + touch.force / spring;
-    let mut tilt = by_position(slope);
-    for _ in 1..ROUNDS {
-        let samples = without_tilt(&curve.samples, tilt, spring, touch);
-        tilt += by_position(first(&samples, indenter, freedom).0);
-    }
-    let samples = without_tilt(&curve.samples, tilt, spring, touch);
-    // A force of long range that deflects the cantilever is in no approach: what describes the curve better is taken.
-    if first(&samples, indenter, freedom).2 < misfit {
-        (samples, tilt)
-    } else {
-        (without(&curve.samples, slope), slope)
-    }
+    /// Slope that is taken out, N/m.
+    slope: f64,
+    by: SlopeBy,
 }
 
-/// The points without the part of their forces that is `tilt` (N/m) times the position of the base of the cantilever, in their
-/// approaches too; these stay at the position `touch`.
-fn without_tilt(samples: &[Sample], tilt: f64, spring: f64, touch: f64) -> Vec<Sample> {
-    let level = |sample: &Sample| {
-        let position = sample.approach + sample.force / spring;
-        Sample {
-            approach: sample.approach + tilt * (position - touch) / spring,
-            force: sample.force - tilt * position,
+/// What the slope of a baseline is by.
+#[derive(Clone, Copy)]
+enum SlopeBy {
+    /// The approach; nothing is known of a cantilever.
+    Approach,
+    /// The position of a cantilever with this spring constant, N/m; where that is at `touch`, m, the approach stays as measured.
+    Position { spring: f64, touch: f64 },
+    /// The approach, as that of a force of long range, which deflects a cantilever with this spring constant, N/m, and is in no approach.
+    Force { spring: f64 },
+}
+
+impl<'a> Tilt<'a> {
+    /// About the slope of the baseline of a curve; 0 if it is known to be level.
+    pub(super) fn of_curve(curve: &'a ForceCurve, indenter: Indenter, freedom: Freedom) -> Self {
+        let level = Tilt {
+            curve,
+            indenter,
+            freedom,
+            slope: 0.0,
+            by: SlopeBy::Approach,
+        };
+        if !freedom.baseline_slope {
+            return level;
         }
+        let sloping = |by: SlopeBy, place: &dyn Fn(&Sample) -> f64| {
+            let starts = far_slopes(&curve.samples, place);
+            best_of(starts.map(|slope| Tilt { slope, by, ..level }))
+        };
+        let approach = |sample: &Sample| sample.approach;
+        let Some(spring) = curve.spring.filter(|_| curve.has_positions) else {
+            return sloping(SlopeBy::Approach, &approach).0;
+        };
+        let position = |sample: &Sample| position(sample, spring);
+        let by_position = SlopeBy::Position { spring, touch: 0.0 };
+        let (by_position, misfit) = sloping(by_position, &position);
+        let (by_force, misfit_of_force) = sloping(SlopeBy::Force { spring }, &approach);
+        // What describes the curve better is taken.
+        if misfit <= misfit_of_force {
+            by_position
+        } else {
+            by_force
+        }
+    }
+
+    /// The curve with a level baseline.
+    pub(super) fn measured(&self) -> Measured {
+        let samples = &self.curve.samples;
+        let positions = |samples: &[Sample], spring: f64| {
+            let each = samples.iter().map(|sample| position(sample, spring));
+            each.collect::<Vec<_>>()
+        };
+        let with_beam = |samples: Vec<Sample>, beam: Option<Beam>| Measured {
+            beam,
+            ..Measured::new(samples, self.indenter, self.freedom)
+        };
+        match self.by {
+            SlopeBy::Approach => with_beam(without(samples, self.slope), None),
+            SlopeBy::Position { spring, touch } => {
+                let level = samples.iter().map(|sample| {
+                    let position = position(sample, spring);
+                    Sample {
+                        approach: sample.approach + self.slope * (position - touch) / spring,
+                        force: sample.force - self.slope * position,
+                    }
+                });
+                let level: Vec<Sample> = level.collect();
+                let beam = Beam {
+                    spring,
+                    positions: positions(&level, spring),
+                    // What is taken out there is out of its position too.
+                    slope: SlopeOf::Deflection {
+                        touch: touch - self.slope * touch / spring,
+                    },
+                };
+                with_beam(level, Some(beam))
+            }
+            SlopeBy::Force { spring } => {
+                let beam = Beam {
+                    spring,
+                    positions: positions(samples, spring),
+                    slope: SlopeOf::Force { taken: self.slope },
+                };
+                with_beam(without(samples, self.slope), Some(beam))
+            }
+        }
+    }
+
+    /// Takes the rest of the slope that quick fits find; the squares that are left, N^2.
+    fn refine(&mut self) -> f64 {
+        let measured = self.measured();
+        let fits = TRIED
+            .iter()
+            .filter_map(|model| fit_model(&measured, *model));
+        let best = fits.min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
+        let Some(best) = best else {
+            return f64::INFINITY;
+        };
+        let found = best.parameters;
+        if let SlopeBy::Position { spring, touch } = &mut self.by {
+            // Where approach and force of the baseline are those of first touch.
+            let level = found.approach_offset + found.force_offset / *spring;
+            let place = level / (1.0 - found.baseline_slope / *spring);
+            *touch = place + self.slope * *touch / *spring;
+        }
+        self.slope += found.baseline_slope;
+        best.sum_of_squares
+    }
+
+    /// Takes the rest of the slope, that of the chosen fit of [`Tilt::measured`], out of the points and out of the forces of all fits. The
+    /// slopes of the other fits are then the difference to that of the chosen one.
+    pub(super) fn level(
+        &mut self,
+        measured: &mut Measured,
+        fits: &mut [ModelFit],
+        chosen: usize,
+    ) -> BaselineSlope {
+        let best = &fits[chosen];
+        let rest = best.parameters.baseline_slope;
+        let uncertainty = best.uncertainties.baseline_slope.unwrap_or(f64::NAN);
+        let of_slope = |at: usize| rest * measured.place(at);
+        for fit in fits {
+            fit.parameters.baseline_slope -= rest;
+            for (at, force) in fit.fitted.iter_mut().enumerate() {
+                *force -= of_slope(at);
+            }
+        }
+        self.slope += rest;
+        *measured = Measured {
+            beam: None,
+            ..self.measured()
+        };
+        BaselineSlope {
+            value: self.slope,
+            uncertainty,
+        }
+    }
+}
+
+/// Position of the base of a cantilever, m.
+fn position(sample: &Sample, spring: f64) -> f64 {
+    sample.approach + sample.force / spring
+}
+
+/// The tilt that leaves the least squares, with what its quick fits find, and those squares, N^2.
+fn best_of<'a>(tilts: [Tilt<'a>; FAR.len()]) -> (Tilt<'a>, f64) {
+    let refined = tilts.map(|mut tilt| {
+        let left = tilt.refine();
+        (tilt, left)
+    });
+    let [first, rest @ ..] = refined;
+    let lesser = |best: (Tilt<'a>, f64), next: (Tilt<'a>, f64)| {
+        if next.1 < best.1 { next } else { best }
     };
-    samples.iter().map(level).collect()
+    rest.into_iter().fold(first, lesser)
 }
 
-/// About the slope of the baseline, N/m, approach and force of first touch, and the sum of squares, N^2: of the best of quick fits with
-/// a slope.
-fn first(samples: &[Sample], indenter: Indenter, freedom: Freedom) -> (f64, Sample, f64) {
-    let mut far = samples.to_vec();
+/// Slopes of lines through the points that are farthest apart, by a place on the curve.
+fn far_slopes(samples: &[Sample], place: &dyn Fn(&Sample) -> f64) -> [f64; FAR.len()] {
+    let mut far: Vec<Sample> = samples.to_vec();
     far.sort_by(|a, b| a.approach.total_cmp(&b.approach));
-    let slopes = FAR.map(|share| {
+    FAR.map(|share| {
         let points = LEAST_POINTS.max((share * far.len() as f64) as usize);
-        line(&far[..points.min(far.len())])
-    });
-    let fits = slopes.iter().flat_map(|slope| {
-        let measured = Measured::new(without(samples, *slope), indenter, freedom);
-        TRIED.map(|model| {
-            let fit = fit_model(&measured, model)?;
-            let (found, slope) = (fit.parameters, slope + fit.parameters.baseline_slope);
-            let approach = found.approach_offset;
-            let touch = Sample {
-                approach,
-                force: found.force_offset + slope * approach,
-            };
-            Some((slope, touch, fit.sum_of_squares))
-        })
-    });
-    let best = fits.flatten().min_by(|a, b| a.2.total_cmp(&b.2));
-    best.unwrap_or((slopes[0], samples[0], f64::INFINITY))
+        line(&far[..points.min(far.len())], place)
+    })
 }
 
-/// The points with a slope taken out.
+/// The points with a slope by approach taken out.
 fn without(samples: &[Sample], slope: f64) -> Vec<Sample> {
     let level = |sample: &Sample| Sample {
         force: sample.force - slope * sample.approach,
@@ -133,38 +239,13 @@ fn without(samples: &[Sample], slope: f64) -> Vec<Sample> {
     samples.iter().map(level).collect()
 }
 
-/// Takes the rest of the slope, that of the chosen fit, out of the points and out of the forces of all fits; `first` is
-/// the part that was taken out before. The slopes of the other fits are then the difference to that of the chosen one.
-pub(super) fn level(
-    measured: &mut Measured,
-    fits: &mut [ModelFit],
-    chosen: usize,
-    first: f64,
-) -> BaselineSlope {
-    let best = &fits[chosen];
-    let rest = best.parameters.baseline_slope;
-    let uncertainty = best.uncertainties.baseline_slope.unwrap_or(f64::NAN);
-    for fit in fits {
-        fit.parameters.baseline_slope -= rest;
-        for (force, approach) in fit.fitted.iter_mut().zip(&measured.approaches) {
-            *force -= rest * approach;
-        }
-    }
-    let samples = without(&measured.samples, rest);
-    *measured = Measured::new(samples, measured.indenter, measured.freedom);
-    BaselineSlope {
-        value: first + rest,
-        uncertainty,
-    }
-}
-
-/// Slope of the least-squares line of force by approach; 0 if all approaches are the same.
-fn line(samples: &[Sample]) -> f64 {
+/// Slope of the least-squares line of force by place; 0 if all places are the same.
+fn line(samples: &[Sample], place: &dyn Fn(&Sample) -> f64) -> f64 {
     let count = samples.len() as f64;
     let mean = |of: &dyn Fn(&Sample) -> f64| samples.iter().map(of).sum::<f64>() / count;
-    let (x, y) = (mean(&|s| s.approach), mean(&|s| s.force));
-    let spread: f64 = samples.iter().map(|s| (s.approach - x).powi(2)).sum();
-    let product = |s: &Sample| (s.approach - x) * (s.force - y);
+    let (x, y) = (mean(place), mean(&|s| s.force));
+    let spread: f64 = samples.iter().map(|s| (place(s) - x).powi(2)).sum();
+    let product = |s: &Sample| (place(s) - x) * (s.force - y);
     if spread > 0.0 {
         samples.iter().map(product).sum::<f64>() / spread
     } else {
@@ -212,11 +293,11 @@ mod tests {
         };
         let mut squares = [0.0; 4];
         for seed in 0..seeds {
-            let samples = sphere(120, 1.2e-7, 100 + seed).samples;
-            let (tilt, ..) = first(&samples, RADIUS.into(), freedom);
-            let mut measured = Measured::new(without(&samples, tilt), RADIUS, freedom);
+            let curve = sphere(120, 1.2e-7, 100 + seed);
+            let mut tilt = Tilt::of_curve(&curve, RADIUS.into(), freedom);
+            let mut measured = tilt.measured();
             let mut fits = vec![fit_model(&measured, Model::Hertz).unwrap()];
-            let slope = level(&mut measured, &mut fits, 0, tilt);
+            let slope = tilt.level(&mut measured, &mut fits, 0);
             let (found, stated) = (&fits[0].parameters, &fits[0].uncertainties);
             assert_eq!(found.baseline_slope, 0.0);
             let numbers = [
@@ -251,8 +332,7 @@ mod tests {
             baseline_slope: true,
             range: None,
         };
-        let (tilt, ..) = first(&curve.samples, RADIUS.into(), freedom);
-        let measured = Measured::new(without(&curve.samples, tilt), RADIUS, freedom);
+        let measured = Tilt::of_curve(&curve, RADIUS.into(), freedom).measured();
         let stated = fit_model(&measured, Model::Hertz).unwrap().uncertainties;
         let expected = shift * stated.baseline_slope.unwrap();
         let found = stated.force_offset.unwrap();

@@ -36,6 +36,8 @@ pub fn reached() -> Vec<Reached> {
         move |i: usize| if i == line { text.clone() } else { good(i) }
     };
     let head = "approach,force";
+    let hertz = |i: usize| (i as f64).powf(1.5);
+    let dmt = |i: usize| if i < 15 { 0.0 } else { hertz(i - 15) - 60.0 };
     let cases: Vec<(&str, String, &str)> = vec![
         (
             "NoHead",
@@ -139,8 +141,18 @@ pub fn reached() -> Vec<Reached> {
         ),
         (
             "WrongWay",
-            rows(head, 20, |i| format!("{i},{}", 100.0 - 10.0 * i as f64)),
+            rows(head, 20, |i| format!("{i},{}", hertz(19 - i))),
             "the force grows as the surfaces separate",
+        ),
+        (
+            "WrongWay",
+            rows(head, 60, |i| format!("{i},{}", -dmt(i))),
+            "the tension grows as the surfaces close",
+        ),
+        (
+            "WrongWay",
+            rows(head, 60, |i| format!("{i},{}", -dmt(59 - i))),
+            "approach and force are both reversed",
         ),
     ];
     let folder = tempfile::tempdir().expect("a folder");
