@@ -2,8 +2,8 @@
 
 use nalgebra::DMatrix;
 
-use super::estimate::{Search, Variable};
 use super::model::{LAMBDAS, Model, Parameters};
+use super::search::{Search, Variable};
 
 /// Rounding that a correlation of 1 may have.
 const ROUNDING: f64 = 1e-6;

@@ -3,18 +3,17 @@
 use nalgebra::DVector;
 
 use super::akaike::{aic, transitions};
-use super::curve_file::Sample;
 use super::deviations::{
     BaselineError, Uncertainties, at_zero, correlations, credible, uncertainties,
 };
-use super::indenter::Indenter;
 use super::least_squares::{Minimum, Problem, covariance, minimise};
-use super::measured::{Freedom, Measured};
+use super::measured::Measured;
 use super::model::{IndenterModel, LAMBDAS, Model, Parameters};
 use super::profile::{MOST_RISE, ProfilePoint, widen};
 use super::scatter::{InContact, Scatter};
+use super::search::{Search, Variable};
 use super::start::{beside_the_fold, scale_grid, starts};
-use crate::theory::tabor_map::{LAMBDA_PER_MU_MATCHED, Sphere, maugis_parameter};
+use crate::theory::tabor_map::LAMBDA_PER_MU_MATCHED;
 
 /// Maugis parameters at which all other numbers are fitted before lambda is freed: the sum of
 /// squares has more than one minimum along lambda.
@@ -23,11 +22,6 @@ const LAMBDAS_TRIED: [f64; 16] = [
 ];
 /// Number of lambdas from which lambda is freed.
 const BEST_LAMBDAS: usize = 3;
-/// Fewest points of a segment without force if the baseline is fitted too: one or two would only
-/// fit their own noise.
-const LEAST_FREE: usize = 3;
-/// The same if its slope is fitted, too.
-const LEAST_FREE_SLOPE: usize = 5;
 /// Points of the grid of scales from which a search starts, in addition to the usual starts.
 const GRID_STARTS: usize = 3;
 /// Most moves from one basin to the next, and the share by which the next must lie lower.
@@ -130,187 +124,6 @@ impl ModelFit {
         let known = self.model == Model::MaugisDugdale;
         known.then_some(self.parameters.maugis_parameter / LAMBDA_PER_MU_MATCHED)
     }
-}
-
-/// A free number of the fit.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Variable {
-    ContactModulus,
-    WorkOfAdhesion,
-    MaugisParameter,
-    ApproachOffset,
-    ForceOffset,
-    BaselineSlope,
-}
-
-impl Variable {
-    pub(super) fn name(self) -> &'static str {
-        match self {
-            Variable::ContactModulus => "contact_modulus",
-            Variable::WorkOfAdhesion => "work_of_adhesion",
-            Variable::MaugisParameter => "maugis_parameter",
-            Variable::ApproachOffset => "approach_offset",
-            Variable::ForceOffset => "force_offset",
-            Variable::BaselineSlope => "baseline_slope",
-        }
-    }
-}
-
-/// The least-squares problem of a model: variables are logarithms of positive numbers, and offsets
-/// as shares of the ranges.
-pub(super) struct Search<'a> {
-    pub(super) measured: &'a Measured,
-    pub(super) tip: &'a IndenterModel,
-    pub(super) variables: Vec<Variable>,
-    start: Parameters,
-}
-
-impl Search<'_> {
-    fn parameters(&self, values: &DVector<f64>) -> Parameters {
-        let mut found = self.start;
-        for (variable, value) in self.variables.iter().zip(values.iter()) {
-            match variable {
-                Variable::ContactModulus => found.contact_modulus *= value.exp(),
-                Variable::WorkOfAdhesion => found.work_of_adhesion *= value.exp(),
-                Variable::MaugisParameter => {
-                    let lambda = found.maugis_parameter * value.exp();
-                    found.maugis_parameter = lambda.clamp(LAMBDAS.0, LAMBDAS.1);
-                }
-                Variable::ApproachOffset => {
-                    found.approach_offset += value * self.unit(*variable);
-                }
-                Variable::ForceOffset => found.force_offset += value * self.unit(*variable),
-                Variable::BaselineSlope => {
-                    // About the middle of the curve: approach 0 may lie far outside, and there a small change of the
-                    // slope would be a large one of the force.
-                    let slope = value * self.unit(*variable);
-                    found.baseline_slope += slope;
-                    found.force_offset -= slope * self.measured.middle;
-                }
-            }
-        }
-        if let Some(range) = self.measured.freedom.range {
-            found.maugis_parameter = lambda_of(&found, self.tip.indenter, range);
-        }
-        found
-    }
-
-    /// Scale of a variable that is not a logarithm.
-    pub(super) fn unit(&self, variable: Variable) -> f64 {
-        match variable {
-            Variable::ApproachOffset => 0.1 * self.measured.approach_span,
-            Variable::ForceOffset => 0.1 * self.measured.force_span,
-            Variable::BaselineSlope => 0.1 * self.measured.force_span / self.measured.approach_span,
-            _ => 1.0,
-        }
-    }
-
-    /// Forces of a tip that interacts, and the numbers, which have the forces of a free one.
-    fn interacting(&self, values: &DVector<f64>) -> Option<(Vec<f64>, Parameters)> {
-        let parameters = self.parameters(values);
-        let approaches = &self.measured.approaches;
-        let forces = if let Some(beam) = &self.measured.beam {
-            let contact = self.tip.contact(&parameters, approaches).ok()?;
-            let contact = |approach: f64| contact(approach).unwrap_or((f64::NAN, f64::NAN));
-            let baseline = (parameters.force_offset, parameters.baseline_slope);
-            beam.forces(contact, baseline, approaches, self.measured.approach_span)
-        } else {
-            self.tip.forces(&parameters, approaches).ok()?
-        };
-        let finite = forces.iter().all(|force| force.is_finite());
-        finite.then_some((forces, parameters))
-    }
-
-    fn residual(&self, sample: &Sample, force: f64) -> f64 {
-        (force - sample.force) / self.measured.force_span
-    }
-}
-
-impl Problem for Search<'_> {
-    /// For each point, whether the tip interacts with the flat; else it is free.
-    type Choice = Vec<bool>;
-
-    /// On loading the tip is free first and interacts later, on unloading the reverse; the jump
-    /// is placed where it fits the forces best.
-    fn choose(&self, values: &DVector<f64>) -> Option<(Vec<bool>, DVector<f64>)> {
-        let interacting = self.interacting(values)?;
-        let samples = &self.measured.samples;
-        let mut choice = vec![true; samples.len()];
-        if self.tip.model == Model::Hertz && self.measured.freedom.baseline_slope {
-            // It does not jump. A transition of its own would let a tilted baseline run on through the first points in
-            // contact, and first touch would be less certain than is stated.
-            let residuals = self.pick(&interacting, &choice);
-            return Some((choice, residuals));
-        }
-        let least_free = match self.measured.freedom {
-            Freedom {
-                baseline_slope: true,
-                ..
-            } => LEAST_FREE_SLOPE,
-            Freedom {
-                force_offset: true, ..
-            } => LEAST_FREE,
-            _ => 1,
-        };
-        for segment in &self.measured.segments {
-            let cost = |i: usize, force: f64| self.residual(&samples[i], force).powi(2);
-            // Gain from treating a point as free.
-            let gain = |i: usize| {
-                let free = interacting.1.baseline(self.measured.place(i));
-                cost(i, interacting.0[i]) - cost(i, free)
-            };
-            let mut order: Vec<usize> = segment.points.clone().collect();
-            if !segment.loading {
-                order.reverse();
-            }
-            let (mut best, mut until, mut sum) = (0.0, 0, 0.0);
-            for (count, i) in order.iter().enumerate() {
-                sum += gain(*i);
-                if sum > best && count + 1 >= least_free {
-                    (best, until) = (sum, count + 1);
-                }
-            }
-            for i in &order[..until] {
-                choice[*i] = false;
-            }
-        }
-        let residuals = self.pick(&interacting, &choice);
-        Some((choice, residuals))
-    }
-
-    fn residuals(&self, values: &DVector<f64>, choice: &Vec<bool>) -> Option<DVector<f64>> {
-        Some(self.pick(&self.interacting(values)?, choice))
-    }
-}
-
-impl Search<'_> {
-    fn pick(
-        &self,
-        (interacting, parameters): &(Vec<f64>, Parameters),
-        choice: &[bool],
-    ) -> DVector<f64> {
-        let samples = &self.measured.samples;
-        let each = (0..samples.len()).map(|i| {
-            let force = if choice[i] {
-                interacting[i]
-            } else {
-                parameters.baseline(self.measured.place(i))
-            };
-            self.residual(&samples[i], force)
-        });
-        DVector::from_iterator(samples.len(), each)
-    }
-}
-
-/// Maugis' lambda of a range; 0 if the numbers are out of bounds.
-fn lambda_of(parameters: &Parameters, indenter: Indenter, range: f64) -> f64 {
-    Sphere::new(
-        indenter.radius().unwrap_or(f64::NAN),
-        parameters.contact_modulus,
-        parameters.work_of_adhesion,
-    )
-    .and_then(|sphere| maugis_parameter(&sphere, parameters.work_of_adhesion / range))
-    .unwrap_or(0.0)
 }
 
 /// The best fit of a model from several starts; `None` if all of them fail.

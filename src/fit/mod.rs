@@ -40,6 +40,7 @@ mod relaxation;
 mod report;
 mod request;
 mod scatter;
+mod search;
 mod segments;
 mod signs;
 mod slope;
