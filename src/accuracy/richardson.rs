@@ -12,7 +12,7 @@ const MOST_ORDER: f64 = 2.0;
 /// Values extrapolated to zero pixel size, with their uncertainty.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Extrapolated {
-    /// The extrapolated values; those of the finest grid where the grids show no order.
+    /// The extrapolated values; those of the finest grid where the grids show no order or go back and forth.
     pub values: Vec<f64>,
     /// Uncertainty of each value.
     pub uncertainty: Vec<f64>,
@@ -44,9 +44,21 @@ pub fn extrapolate(grids: &[Vec<f64>], ratio: f64) -> Extrapolated {
         };
     }
     let last = change(count - 1);
-    let order = (count > 2)
-        .then(|| order(&change(count - 2), &last, ratio))
-        .flatten();
+    let before = (count > 2).then(|| change(count - 2));
+    let order = before
+        .as_ref()
+        .and_then(|before| order(before, &last, ratio));
+    if let Some(before) = before.filter(|before| turns_round(before, &last)) {
+        // The last change may be small by chance: what is left is at least that of first order from the one before.
+        let changes = before.iter().zip(&last);
+        return Extrapolated {
+            values: fine.clone(),
+            uncertainty: changes
+                .map(|(before, last)| last.abs().max(before.abs() / ratio))
+                .collect(),
+            order,
+        };
+    }
     match order {
         Some(order) if order >= LEAST_ORDER => {
             let shrink = ratio.powf(order.min(MOST_ORDER)) - 1.0;
@@ -66,6 +78,12 @@ pub fn extrapolate(grids: &[Vec<f64>], ratio: f64) -> Extrapolated {
             order,
         },
     }
+}
+
+/// Whether the second of two changes leads back: no power of the pixel size does.
+fn turns_round(before: &[f64], after: &[f64]) -> bool {
+    let product: f64 = before.iter().zip(after).map(|(a, b)| a * b).sum();
+    product < 0.0
 }
 
 /// Observed order of convergence; `None` if a difference is 0 or NaN.
@@ -110,6 +128,10 @@ mod tests {
         let found = extrapolate(&[vec![1.0], vec![1.1], vec![1.3]], 2.0);
         assert_eq!(found.values, [1.3]);
         assert!((found.uncertainty[0] - 0.2).abs() < 1e-12);
+        // The contact area of an egg-box on 16, 32 and 64 points a side; on 512 it is 0.266. It was stated as 0.275 +- 0.001.
+        let found = extrapolate(&[vec![0.263], vec![0.279], vec![0.276]], 2.0);
+        assert_eq!(found.values, [0.276]);
+        assert!((found.uncertainty[0] - 0.008).abs() < 1e-12);
         let two = extrapolate(&[vec![1.0], vec![1.1]], 2.0);
         assert!((two.uncertainty[0] - 0.1).abs() < 1e-12 && two.order.is_none());
         assert_eq!(extrapolate(&[vec![1.0]], 2.0).uncertainty, [f64::INFINITY]);

@@ -161,6 +161,7 @@ pub fn fit_curve(
         |number: Number| deviation(&fits, chosen, range_known, number).filter(|_| zero_known);
     let (work_uncertainty, modulus_uncertainty) = (stated(work), stated(modulus));
     let touch_uncertainty = stated(touch);
+    warnings.extend(tilt.doubt(modulus_uncertainty));
     fits[chosen].uncertainties.approach_offset = touch_uncertainty;
     fits[chosen].uncertainties.contact_modulus = modulus_uncertainty;
     if fits[chosen].model.adheres() {

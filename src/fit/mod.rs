@@ -27,6 +27,7 @@ mod inversion;
 mod jpk;
 mod law_error;
 mod least_squares;
+mod loading;
 mod maugis_curve;
 mod measured;
 mod mixed_rows;

@@ -7,7 +7,7 @@
 use std::path::Path;
 
 use super::beam::{Beam, SlopeOf};
-use super::choice::{FitResult, fit_curve};
+use super::choice::{CONTACT_AIC, FitResult, fit_curve};
 use super::curve_file::{ForceCurve, Sample};
 use super::error::FitError;
 use super::estimate::{ModelFit, fit_model};
@@ -62,6 +62,8 @@ pub(super) struct Tilt<'a> {
     /// Slope that is taken out, N/m.
     slope: f64,
     by: SlopeBy,
+    /// Contact modulus of a quick fit with this slope, by position, and with that of a force, Pa, where the curve does not tell which it has.
+    moduli: Option<[f64; 2]>,
 }
 
 /// What the slope of a baseline is by.
@@ -84,6 +86,7 @@ impl<'a> Tilt<'a> {
             freedom,
             slope: 0.0,
             by: SlopeBy::Approach,
+            moduli: None,
         };
         if !freedom.baseline_slope {
             return level;
@@ -98,14 +101,33 @@ impl<'a> Tilt<'a> {
         };
         let position = |sample: &Sample| position(sample, spring);
         let by_position = SlopeBy::Position { spring, touch: 0.0 };
-        let (by_position, misfit) = sloping(by_position, &position);
-        let (by_force, misfit_of_force) = sloping(SlopeBy::Force { spring }, &approach);
-        // What describes the curve better is taken.
-        if misfit <= misfit_of_force {
-            by_position
-        } else {
-            by_force
+        let (mut by_position, of_position) = sloping(by_position, &position);
+        let (by_force, of_force) = sloping(SlopeBy::Force { spring }, &approach);
+        let (Some(of_position), Some(of_force)) = (of_position, of_force) else {
+            return by_position;
+        };
+        // A tilt of the deflection is the rule, and by chance an attraction that is none makes one of a force the better.
+        let gain = of_position.aic - of_force.aic;
+        if gain > CONTACT_AIC {
+            return by_force;
         }
+        if gain > -CONTACT_AIC {
+            let moduli = [&of_position, &of_force].map(|fit| fit.parameters.contact_modulus);
+            by_position.moduli = Some(moduli);
+        }
+        by_position
+    }
+
+    /// A warning where the curve does not tell the two kinds of slopes apart, and the modulus, with this deviation, depends on them.
+    pub(super) fn doubt(&self, deviation: Option<f64>) -> Option<String> {
+        let [chosen, other] = self.moduli?;
+        let is_felt = (other - chosen).abs() > deviation?;
+        is_felt.then(|| {
+            format!(
+                "the curve does not tell whether the slope of its baseline is one of the deflection, which is taken, or that of a force of long range: then E* changes by {:+.1} %",
+                100.0 * (other / chosen - 1.0),
+            )
+        })
     }
 
     /// The curve with a level baseline.
@@ -151,16 +173,13 @@ impl<'a> Tilt<'a> {
         }
     }
 
-    /// Takes the rest of the slope that quick fits find; the squares that are left, N^2.
-    fn refine(&mut self) -> f64 {
+    /// Takes the rest of the slope that quick fits find, and the best of them.
+    fn refine(&mut self) -> Option<ModelFit> {
         let measured = self.measured();
         let fits = TRIED
             .iter()
             .filter_map(|model| fit_model(&measured, *model));
-        let best = fits.min_by(|a, b| a.sum_of_squares.total_cmp(&b.sum_of_squares));
-        let Some(best) = best else {
-            return f64::INFINITY;
-        };
+        let best = fits.min_by(|a, b| a.aic.total_cmp(&b.aic))?;
         let found = best.parameters;
         if let SlopeBy::Position { spring, touch } = &mut self.by {
             // Where approach and force of the baseline are those of first touch.
@@ -169,7 +188,7 @@ impl<'a> Tilt<'a> {
             *touch = place + self.slope * *touch / *spring;
         }
         self.slope += found.baseline_slope;
-        best.sum_of_squares
+        Some(best)
     }
 
     /// Takes the rest of the slope, that of the chosen fit of [`Tilt::measured`], out of the points and out of the forces of all fits. The
@@ -207,17 +226,22 @@ fn position(sample: &Sample, spring: f64) -> f64 {
     sample.approach + sample.force / spring
 }
 
-/// The tilt that leaves the least squares, with what its quick fits find, and those squares, N^2.
-fn best_of<'a>(tilts: [Tilt<'a>; FAR.len()]) -> (Tilt<'a>, f64) {
+/// The tilt of the best quick fit, and that fit.
+fn best_of<'a>(tilts: [Tilt<'a>; FAR.len()]) -> (Tilt<'a>, Option<ModelFit>) {
     let refined = tilts.map(|mut tilt| {
-        let left = tilt.refine();
-        (tilt, left)
+        let fit = tilt.refine();
+        (tilt, fit)
     });
     let [first, rest @ ..] = refined;
-    let lesser = |best: (Tilt<'a>, f64), next: (Tilt<'a>, f64)| {
-        if next.1 < best.1 { next } else { best }
+    let misfit = |fit: &Option<ModelFit>| fit.as_ref().map_or(f64::INFINITY, |fit| fit.aic);
+    let better = |best: (Tilt<'a>, _), next: (Tilt<'a>, _)| {
+        if misfit(&next.1) < misfit(&best.1) {
+            next
+        } else {
+            best
+        }
     };
-    rest.into_iter().fold(first, lesser)
+    rest.into_iter().fold(first, better)
 }
 
 /// Slopes of lines through the points that are farthest apart, by a place on the curve.

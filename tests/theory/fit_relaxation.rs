@@ -132,3 +132,38 @@ fn what_a_short_loading_does_not_know_is_not_stated() {
     println!("{stated} of 36 stated, {missed} missed");
     assert!(missed <= 1, "{missed} of {stated} missed");
 }
+
+/// The approach has the noise of a deflection that was measured by position, which is not that of its power: the modulus at once was 11 % low, and all
+/// three numbers were up to four of their stated deviations off.
+#[test]
+fn the_noise_of_a_deflection_is_not_in_the_moduli() {
+    let (solid, spring, noise) = ([5e3, 10e3, 0.1], 0.07, 1e-9);
+    let (times, approaches) = ramp_and_hold(300, 0, 1.0, 6.5e-7);
+    let exact = pressed(solid, &times, &approaches, 0.0, 1);
+    let truth = [5e3, 15e3, 0.1];
+    let mut squares = [0.0; 3];
+    let seeds = 6;
+    for seed in 0..seeds {
+        let mut random = Random(100 + seed);
+        let samples = exact.samples.iter().map(|sample| {
+            let deflection = noise * random.normal();
+            Sample {
+                approach: sample.approach - deflection,
+                force: sample.force + spring * deflection,
+            }
+        });
+        let curve = ForceCurve {
+            samples: samples.collect(),
+            spring: Some(spring),
+            has_positions: true,
+            ..exact.clone()
+        };
+        let found = relaxation(&curve, true);
+        for (square, ((value, deviation), truth)) in squares.iter_mut().zip(found.iter().zip(truth))
+        {
+            *square += ((value - truth) / deviation).powi(2);
+        }
+    }
+    // The sum of 6 squares of normal numbers is below 22.5 in 999 cases of 1000.
+    assert!(squares.iter().all(|square| *square < 22.5), "{squares:?}");
+}
