@@ -79,6 +79,9 @@ pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
         .collect();
     let load = AT * most;
     let (stiffness, slope_error) = Parabola::through(&points)?.slope_at(zero + load)?;
+    // The noise of a deflection is in the approach too.
+    let spring = measured.beam.as_ref().map(|beam| beam.spring);
+    let amplified = spring.map_or(1.0, |spring| 1.0 + (stiffness / spring).max(0.0));
     let invert = |pull_off: f64, stiffness: f64| {
         jkr::from_measurement(radius, pull_off, load, stiffness).ok()
     };
@@ -90,7 +93,7 @@ pub fn invert_curve(measured: &Measured, fit: &ModelFit) -> Option<Inversion> {
         )?,
         invert(
             pull_off,
-            stiffness + (fit.noise * slope_error).hypot(tilt_error.max(0.0)),
+            stiffness + (amplified * fit.noise * slope_error).hypot(tilt_error.max(0.0)),
         )?,
     ];
     let spread = |of: fn(&Sphere) -> f64| {

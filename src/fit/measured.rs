@@ -82,7 +82,7 @@ pub struct Measured {
     pub(super) approach_span: f64,
     /// Mean approach, m.
     pub(super) middle: f64,
-    /// The cantilever, if the base of one is at known positions and the slope of the baseline is fitted.
+    /// The cantilever, if the base of one is at known positions and its spring gives way.
     pub(super) beam: Option<Beam>,
 }
 

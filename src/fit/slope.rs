@@ -22,6 +22,9 @@ const LEAST_POINTS: usize = 5;
 /// Models that are fitted from each start: without adhesion, and with it.
 const TRIED: [Model; 2] = [Model::Hertz, Model::Jkr];
 
+/// Share of the way of its base by which a spring bends, below which its noise in the approach is none that is felt.
+const GIVES: f64 = 0.1;
+
 /// Slope of the baseline.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
@@ -88,15 +91,22 @@ impl<'a> Tilt<'a> {
             by: SlopeBy::Approach,
             moduli: None,
         };
+        let spring = curve.spring.filter(|_| curve.has_positions);
         if !freedom.baseline_slope {
-            return level;
+            return match spring.filter(|spring| gives_way(&curve.samples, *spring)) {
+                Some(spring) => Tilt {
+                    by: SlopeBy::Position { spring, touch: 0.0 },
+                    ..level
+                },
+                None => level,
+            };
         }
         let sloping = |by: SlopeBy, place: &dyn Fn(&Sample) -> f64| {
             let starts = far_slopes(&curve.samples, place);
             best_of(starts.map(|slope| Tilt { slope, by, ..level }))
         };
         let approach = |sample: &Sample| sample.approach;
-        let Some(spring) = curve.spring.filter(|_| curve.has_positions) else {
+        let Some(spring) = spring else {
             return sloping(SlopeBy::Approach, &approach).0;
         };
         let position = |sample: &Sample| position(sample, spring);
@@ -210,15 +220,23 @@ impl<'a> Tilt<'a> {
             }
         }
         self.slope += rest;
-        *measured = Measured {
-            beam: None,
-            ..self.measured()
-        };
+        *measured = self.measured();
         BaselineSlope {
             value: self.slope,
             uncertainty,
         }
     }
+}
+
+/// Whether a spring bends by more than [`GIVES`] of the way of its base in contact, so that the noise of its deflection is felt in the approach.
+fn gives_way(samples: &[Sample], spring: f64) -> bool {
+    let greatest = samples.iter().map(|sample| sample.force);
+    let greatest = greatest.fold(f64::NEG_INFINITY, f64::max);
+    let pressed = samples
+        .iter()
+        .filter(|sample| sample.force > 0.5 * greatest);
+    let pressed: Vec<Sample> = pressed.copied().collect();
+    line(&pressed, &|sample| position(sample, spring)) > GIVES * spring
 }
 
 /// Position of the base of a cantilever, m.
