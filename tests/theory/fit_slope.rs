@@ -157,7 +157,7 @@ fn errors_on_a_soft_spring(work: f64, tilt: f64, seed: u64) -> [f64; 2] {
         spring: 0.14,
         greatest: 4.7e-7,
         noise: 3e-11,
-        points: 150,
+        points: 120,
     };
     let curve = pulled.curve(tilt, seed);
     let result = fit_curve(&curve, Path::new("soft"), RADIUS, ALL_FREE).unwrap();
@@ -211,14 +211,14 @@ fn a_noisy_deflection_leaves_the_modulus_in_its_deviation() {
 /// modulus was up to 8 of its stated deviations too low.
 #[test]
 fn a_stiff_contact_on_a_soft_spring_keeps_its_modulus() {
-    let seeds = 4_u64;
+    let seeds = 2_u64;
     for (work, tilt) in [(1e-6, -2e-3), (0.01, 2e-3)] {
         let errors = (0..seeds).map(|seed| errors_on_a_soft_spring(work, tilt, seed));
         let squares = errors.fold([0.0; 2], |sum, [modulus, slope]| {
             [sum[0] + modulus * modulus, sum[1] + slope * slope]
         });
-        // The sum of 4 squares of normal numbers is below 18.5 in 999 cases of 1000.
-        assert!(squares.iter().all(|square| *square < 18.5), "{squares:?}");
+        // The sum of 2 squares of normal numbers is below 13.8 in 999 cases of 1000.
+        assert!(squares.iter().all(|square| *square < 13.8), "{squares:?}");
     }
 }
 
@@ -279,7 +279,7 @@ fn a_force_of_long_range_stays_in_the_approach() {
 fn a_tilt_of_the_deflection_is_no_force_of_long_range() {
     let (radius, modulus, spring, tilt) = (2e-6, 20e6, 1.0, -4e-3);
     let stiffness = 4.0 / 3.0 * modulus * f64::sqrt(radius);
-    for seed in 0..4 {
+    for seed in 0..2 {
         let mut normal = normal(seed);
         let samples = (0..400).map(|i| {
             let base = 6e-7 - 2.6e-6 * f64::from(i) / 399.0;
