@@ -16,7 +16,9 @@ use super::measured::{Freedom, Measured};
 use super::model::Model;
 
 /// Shares of the points, the farthest apart, of which lines are tried as a start: it is not known how many of them are free.
-const FAR: [f64; 4] = [0.05, 0.1, 0.3, 0.6];
+const FAR: [f64; 4] = [0.05, 0.6, 0.1, 0.3];
+/// Difference of Akaike's criterion of fits that have found the same.
+const SAME_AIC: f64 = 0.01;
 /// Fewest points of such a line.
 const LEAST_POINTS: usize = 5;
 /// Models that are fitted from each start: without adhesion, and with it.
@@ -244,22 +246,29 @@ fn position(sample: &Sample, spring: f64) -> f64 {
     sample.approach + sample.force / spring
 }
 
-/// The tilt of the best quick fit, and that fit.
+/// The tilt of the best quick fit, and that fit. Where two starts have led to the best one no more are tried.
 fn best_of<'a>(tilts: [Tilt<'a>; FAR.len()]) -> (Tilt<'a>, Option<ModelFit>) {
-    let refined = tilts.map(|mut tilt| {
+    let [first, rest @ ..] = tilts;
+    let refined = |mut tilt: Tilt<'a>| {
         let fit = tilt.refine();
         (tilt, fit)
-    });
-    let [first, rest @ ..] = refined;
-    let misfit = |fit: &Option<ModelFit>| fit.as_ref().map_or(f64::INFINITY, |fit| fit.aic);
-    let better = |best: (Tilt<'a>, _), next: (Tilt<'a>, _)| {
-        if misfit(&next.1) < misfit(&best.1) {
-            next
-        } else {
-            best
-        }
     };
-    rest.into_iter().fold(first, better)
+    let misfit = |found: &(Tilt<'a>, Option<ModelFit>)| {
+        let fit = found.1.as_ref();
+        fit.map_or(f64::INFINITY, |fit| fit.aic)
+    };
+    let mut best = refined(first);
+    for tilt in rest {
+        let next = refined(tilt);
+        let is_same = (misfit(&next) - misfit(&best)).abs() < SAME_AIC;
+        if misfit(&next) < misfit(&best) {
+            best = next;
+        }
+        if is_same {
+            break;
+        }
+    }
+    best
 }
 
 /// Slopes of lines through the points that are farthest apart, by a place on the curve.
