@@ -24,19 +24,26 @@ const STYLE: Style = Style {
 pub fn figure(result: &FitResult, title: &str) -> Figure {
     let fit = result.best();
     let samples = &result.measured.samples;
+    let measured = |at: usize| samples[at].approach;
+    // At a known position the approach of the model goes with its own deflection.
+    let beam = result.measured.beam.as_ref();
+    let of_model = |at: usize| {
+        let rest = samples[at].force - fit.fitted[at];
+        beam.map_or(measured(at), |beam| measured(at) + rest / beam.spring)
+    };
     // A series for each segment: the data as marks, the model as a line.
     let panel = |title: &str, data: &dyn Fn(usize) -> f64, model: &dyn Fn(usize) -> f64| {
         let segments = result.measured.segments.iter();
-        let points = |segment: &Segment, value: &dyn Fn(usize) -> f64| -> Vec<PlotPoint> {
-            let places = segment.points.clone();
-            let point = |at: usize| PlotPoint::new(samples[at].approach, value(at));
-            places.map(point).collect()
-        };
+        let points =
+            |segment: &Segment, place: &dyn Fn(usize) -> f64, value: &dyn Fn(usize) -> f64| {
+                let point = |at: usize| PlotPoint::new(place(at), value(at));
+                segment.points.clone().map(point).collect::<Vec<_>>()
+            };
         let marks = segments.clone().map(|segment| {
             let name = if segment.loading { LOADING } else { UNLOADING };
-            Series::marks(name, points(segment, data))
+            Series::marks(name, points(segment, &measured, data))
         });
-        let lines = segments.map(|segment| Series::line(MODEL, points(segment, model)));
+        let lines = segments.map(|segment| Series::line(MODEL, points(segment, &of_model, model)));
         Panel {
             title: title.to_owned(),
             x: Axis::linear("approach of the probe", "m"),
