@@ -24,7 +24,7 @@ const LEAST_POINTS: usize = 5;
 /// Models that are fitted from each start: without adhesion, and with it.
 const TRIED: [Model; 2] = [Model::Hertz, Model::Jkr];
 
-/// Share of the way of its base by which a spring bends, below which its noise in the approach is none that is felt.
+/// Deflection over travel of the base, in contact, below which the noise of the deflection hardly changes the approach.
 const GIVES: f64 = 0.1;
 
 /// Slope of the baseline.
@@ -118,7 +118,7 @@ impl<'a> Tilt<'a> {
         let (Some(of_position), Some(of_force)) = (of_position, of_force) else {
             return by_position;
         };
-        // A tilt of the deflection is the rule, and by chance an attraction that is none makes one of a force the better.
+        // A tilt of the deflection is the usual case. Noise alone may favour a force, together with an adhesion that the curve does not have.
         let gain = of_position.aic - of_force.aic;
         if gain > CONTACT_AIC {
             return by_force;

@@ -273,7 +273,7 @@ fn a_force_of_long_range_stays_in_the_approach() {
     assert!(found.uncertainty < 0.01 * slope);
 }
 
-/// By chance a slope of the force, with an attraction that is none, leaves less of such a curve than the tilt of the deflection that is in it. The
+/// With some noise, a slope of the force and a false adhesion fit such a curve a little better than the true tilt of its deflection. The
 /// modulus was 7 % low, eleven of its stated deviations.
 #[test]
 fn a_tilt_of_the_deflection_is_no_force_of_long_range() {
